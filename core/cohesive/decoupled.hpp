@@ -1,0 +1,151 @@
+// Method 0 of page 40 (section 4.5): each mode damages by its own strength law, and both fail together, by the end of
+// one law or by the energy criterion (GI/GIc)^p + (GII/GIIc)^q = 1.
+#pragma once
+
+#include "lode/cohesive/interface.hpp"
+#include "lode/numerics/root.hpp"
+
+namespace lode {
+
+template <class NormalLaw, class ShearLaw>
+struct DecoupledInterface {
+    NormalLaw normal;
+    ShearLaw shear;
+    double p, q;  // exponents of the criterion, p <= 0: none
+    Contact contact;
+    double thickness;
+
+    // DDSDDE of the virgin interface.
+    template <AnalysisKind kind>
+    void initial_stiffness(Tangent<kind>& tangent) const {
+        constexpr int n = components(kind);
+        for (int i = 0; i < n * n; ++i) tangent.stiffness[i] = 0.0;
+        for (int i = 0; i < n; ++i) tangent(i, i) = thickness * (i == 0 ? normal.stiffness : shear.stiffness);
+    }
+
+    template <AnalysisKind kind, class Real, class T>
+    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        namespace index = interface_state;
+        using Path = SeparationPath<kind, Real>;
+        const Real zero(0.0), one(1.0);
+        const State<Real>& state = point.state;
+        const Path path(increment, state, thickness);
+        const Real dn_old = max(state[index::dn], Real(normal.elastic_limit));
+        const Real dt_old = max(state[index::dt], Real(shear.elastic_limit));
+        const Mask<Real> failed_before = state[index::Dn] >= one && state[index::Dt] >= one;
+
+        // 1. largest opening and sliding so far
+        const Real opening = Path::opening(path.end), sliding = Path::sliding(path.end);
+        const Mask<Real> opens = opening > dn_old && !failed_before, slides = sliding > dt_old && !failed_before;
+        InterfaceResult<kind, Real> result;
+        result.dn = select(opens, opening, dn_old);
+        result.dt = select(slides, sliding, dt_old);
+        result.GI = released(normal, result.dn);
+        result.GII = released(shear, result.dt);
+        result.Gdrop = state[index::Gdrop];
+
+        // 2. failure, at the point of the path where it happens
+        result.failed = failed_before;
+        const Mask<Real> fails = !failed_before && excess(result.dn, result.dt, result.GI, result.GII) >= zero;
+        if (any(fails)) [[unlikely]] {
+            locate_failure(path, dn_old, dt_old, fails, result);
+            result.failed = failed_before || fails;
+        }
+
+        // Damage below 1 marks an interface that has not failed, however small u_e/u_c is.
+        const Real largest_damage(1.0 - 0.5 * std::numeric_limits<double>::epsilon());
+        const Real intact_n = normal.integrity(result.dn), intact_t = shear.integrity(result.dt);
+        result.normal_damage = select(result.failed, one, min(1.0 - intact_n, largest_damage));
+        result.shear_damage = select(result.failed, one, min(1.0 - intact_t, largest_damage));
+        result.normal_stiffness = select(result.failed, zero, normal.stiffness * intact_n);
+        result.shear_stiffness = select(result.failed, zero, shear.stiffness * intact_t);
+        result.finish(path, contact, thickness, point);
+
+        if constexpr (wants_tangent<T>) {
+            // 3. S' where damage grew, S/delta elsewhere; in shear along and across the direction of sliding
+            constexpr int n = components(kind);
+            const auto& u = path.end;
+            const double secant = result.secant(u[0], contact);
+            for (int i = 0; i < n * n; ++i) tangent.stiffness[i] = 0.0;
+            tangent(0, 0) = thickness * (opens && !result.failed ? normal.slope(result.dn) : secant);
+            for (int i = 1; i < n; ++i) tangent(i, i) = thickness * result.shear_stiffness;
+            if (slides && !result.failed) {
+                const double change =
+                    thickness * (shear.slope(result.dt) - result.shear_stiffness) / (sliding * sliding);
+                for (int j = 1; j < n; ++j)
+                    for (int i = 1; i < n; ++i) tangent(i, j) += change * u[i] * u[j];
+            }
+        }
+    }
+
+  private:
+    template <class Law, class Real>
+    static Real released(const Law& law, const Real& delta) {
+        return law.released_energy(min(delta, Real(law.end)));
+    }
+    template <class Real>
+    static Real power(const Real& x, double exponent) {
+        if (exponent == 1.0) return x;
+        return select(x > Real(0.0), pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));
+    }
+
+    // Not negative once one of the three conditions of failure holds.
+    template <class Real>
+    Real excess(const Real& dn, const Real& dt, const Real& GI, const Real& GII) const {
+        const Real ends =
+            max((dn - normal.end) * (1.0 / normal.end), (dt - shear.end) * (1.0 / shear.end));
+        if (!(p > 0.0)) return ends;
+        const Real x = GI * (1.0 / normal.toughness), y = GII * (1.0 / shear.toughness);
+        return max(ends, power(x, p) + power(y, q) - 1.0);
+    }
+
+    // The first s of the path at which `excess` vanishes; it grows with s, since u_n and u_t are convex in s. The state
+    // is frozen there, so that the criterion is met exactly whatever the size of the increment.
+    template <AnalysisKind kind, class Real>
+    void locate_failure(const SeparationPath<kind, Real>& path, const Real& dn_old, const Real& dt_old,
+                        const Mask<Real>& fails, InterfaceResult<kind, Real>& result) const {
+        using Path = SeparationPath<kind, Real>;
+        const Real zero(0.0);
+        const auto residual = [&](const Real& s) {
+            const auto u = path.at(s);
+            const Real opening = Path::opening(u), sliding = Path::sliding(u);
+            const Real dn = max(dn_old, opening), dt = max(dt_old, sliding);
+            const Real GI = released(normal, dn), GII = released(shear, dt);
+            const Real value = excess(dn, dt, GI, GII);
+
+            // d(delta)/ds where it grows
+            Real along = u[1] * path.change[1];
+            for (int i = 2; i < Path::n; ++i) along = along + u[i] * path.change[i];
+            const Real dn_rate = select(opening > dn_old, path.change[0], zero);
+            const Real dt_rate = select(sliding > dt_old, along / max(sliding, Real(shear.elastic_limit)), zero);
+            const Real end_n = (dn - normal.end) * (1.0 / normal.end), end_t = (dt - shear.end) * (1.0 / shear.end);
+            Real slope = select(end_n > end_t, dn_rate * (1.0 / normal.end), dt_rate * (1.0 / shear.end));
+            if (p > 0.0) {
+                const auto rate = [](const auto& law, const Real& delta, const Real& G, double exponent) {
+                    return exponent * power(G, exponent - 1.0) * law.release_rate(min(delta, Real(law.end))) / law.toughness;
+                };
+                const Real x = GI * (1.0 / normal.toughness), y = GII * (1.0 / shear.toughness);
+                slope = select(value > max(end_n, end_t),
+                               rate(normal, dn, x, p) * dn_rate + rate(shear, dt, y, q) * dt_rate, slope);
+            }
+            return Residual<Real>{value, slope};
+        };
+        // A state that was set beyond failure by the host fails at s = 0.
+        const Mask<Real> inside = fails && residual(zero).value < zero;
+        const Root<Real> root = solve_bracketed<Slope::increasing>(
+            residual, zero, Real(1.0), select(inside, Real(1.0), zero), Real(4e-16), inside);
+
+        const auto u = path.at(root.x);
+        const Real opening = Path::opening(u), sliding = Path::sliding(u);
+        const Real dn = min(max(dn_old, opening), Real(normal.end)), dt = min(max(dt_old, sliding), Real(shear.end));
+        const Real stored = normal.stiffness * normal.integrity(dn) * square(opening) +
+                            shear.stiffness * shear.integrity(dt) * square(sliding);
+        result.dn = select(fails, dn, result.dn);
+        result.dt = select(fails, dt, result.dt);
+        result.GI = select(fails, released(normal, dn), result.GI);
+        result.GII = select(fails, released(shear, dt), result.GII);
+        result.Gdrop = select(fails, result.Gdrop + 0.5 * stored, result.Gdrop);
+    }
+};
+
+}  // namespace lode

@@ -1,0 +1,174 @@
+// ISO_ELASTIC: isotropic linear elasticity with residual strain (page 10; Nairn, chapters 1 and 3).
+#pragma once
+
+#include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/elastic/total_rotation.hpp"
+#include "lode/material/description.hpp"
+#include "lode/material/properties.hpp"
+
+namespace lode {
+
+struct IsoElastic {
+    static constexpr lode_parameter parameters[] = {
+        required("E", "Young's modulus", "stress", above(0.0)),
+        required("NU", "Poisson's ratio", "-", inside(-1.0, 0.5)),
+        optional("ALPHA", "thermal expansion", "1/temp", any_value(), 0.0),
+        optional("BETA", "expansion per unit of field 1", "1/field", any_value(), 0.0),
+        optional("KIN", "strain measure", "code", code(0, 2), 0.0,
+                 "0 hypoelastic in DSTRAN; 1, 2 total law in the left stretch of DFGRD1"),
+        optional("OOP", "out-of-plane stress (plane stress) or strain (3,1)", "stress or strain", any_value(), 0.0),
+        optional("TOOP", "ramp time of OOP", "time", at_least(0.0), 0.0),
+    };
+    static constexpr lode_state states[] = {
+        {"EZZ", "out-of-plane strain, plane stress only", 0.0},
+        {"OOP", "out-of-plane stress or strain applied so far", 0.0},
+        {"DT", "sum of DTEMP", 0.0},
+        {"DC", "sum of DPRED(1), with BETA", 0.0},
+    };
+    static constexpr double steel[] = {210000.0, 0.3};
+    static constexpr double aluminium[] = {70000.0, 0.33, 2.3e-5};
+    static constexpr double large_rotation[] = {1000.0, 0.25, 0.0, 0.0, 1.0};
+    static constexpr lode_sample samples[] = {
+        {"STEEL", "mild steel, MPa", steel, count_of(steel), 1e-3, continuum_kinds},
+        {"ALUMINIUM", "aluminium alloy with thermal expansion, MPa, 1/K", aluminium, count_of(aluminium), 1e-3,
+         continuum_kinds},
+        {"TOTAL", "soft solid, total law in the left stretch", large_rotation, count_of(large_rotation), 0.02,
+         continuum_kinds},
+    };
+    static constexpr lode_algorithm algorithms[] = {
+        {"incremental, exact for the given strain increment", 5, 0.0, HUGE_VAL},
+        {"total law in the left stretch", 5, 1.0, HUGE_VAL},
+    };
+    static constexpr lode_model description = {
+        .keyword = "ISO_ELASTIC",
+        .title = "Isotropic linear elasticity",
+        .family = "elastic",
+        .purpose =
+            "The default elastic law, with thermal and moisture expansion, generalized plane stress and plane strain, "
+            "and an optional total law for large rotations.",
+        .source = "Nairn, chapter 1 (eqs. 1.1-1.15) and chapter 3 (eqs. 3.1-3.19)",
+        .kinds = continuum_kinds,
+        .traits = LODE_ELASTIC,
+        .parameters = parameters,
+        .parameter_count = count_of(parameters),
+        .required_count = 2,
+        .state = states,
+        .state_count = count_of(states),
+        .samples = samples,
+        .sample_count = count_of(samples),
+        .algorithms = algorithms,
+        .algorithm_count = count_of(algorithms),
+        .limits =
+            "- NU towards 0.5: the host locks long before rounding matters (relative error about 1e-16/(1 - 2 NU)).\n"
+            "- KIN = 0 under large strain is not hyperelastic: closed strain cycles leave stress; beyond about 20 % "
+            "strain use a hyperelastic model.\n"
+            "- KIN = 1, 2: nothing resists element inversion; det F <= 0 asks for a smaller increment. An initial "
+            "stress of the host is lost.\n",
+    };
+
+    explicit IsoElastic(const Properties& p)
+        : moduli(IsotropicModuli::from_young_poisson(p[1], p[2])),
+          thermal_expansion(p[3]),
+          field_expansion(p[4]),
+          total_law(p.code(5) != 0),
+          out_of_plane(p[6]),
+          ramp_time(p[7]) {}
+
+    int required_state(AnalysisKind) const { return 4; }
+
+    template <AnalysisKind kind>
+    void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& c) const {
+        moduli.set_stiffness<kind>(c);
+    }
+
+    template <AnalysisKind kind, class Real, class T>
+    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        constexpr int normals = normal_components(kind);
+        constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
+        auto& state = point.state;
+        const Real temperature_increment = increment.temperature_increment();
+        const Real temperature_sum = state[3] + temperature_increment;
+        Real field_increment = Real(0.0);
+        if (field_expansion != 0.0) field_increment = increment.field_increment(1);
+        const Real field_sum = state[4] + field_increment;
+
+        // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
+        Real imposed_old = state[2], imposed = Real(0.0);
+        if (out_of_plane != 0.0 && (is_plane_stress || kind == AnalysisKind::plane_strain))
+            imposed = Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
+
+        Real out_of_plane_strain = state[1];
+        if (kind != AnalysisKind::uniaxial && total_law) {
+            TotalRotation<kind, Real> rotation;
+            if (!rotation.from(increment, point)) return;
+            Strain<kind, Real> strain = rotation.strain;
+            Real residual = Real(0.0);
+            if (thermal_expansion != 0.0 || field_expansion != 0.0)
+                residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
+            add_out_of_plane<kind>(strain, imposed);
+            add_to_normals(strain, normals, Real(0.0) - residual);
+            point.stress = moduli.template stress<kind>(strain);
+            add_imposed_stress<kind>(point.stress, imposed);
+            if constexpr (is_plane_stress) {
+                out_of_plane_strain = lateral_strain(point.stress, imposed) + residual;
+                point.thickness_strain_increment = out_of_plane_strain - state[1];
+            }
+            if constexpr (wants_tangent<T>) rotation.set_tangent(moduli, point.stress, tangent);
+        } else {
+            Strain<kind, Real> strain = increment.strain_increment;
+            Real residual = Real(0.0);
+            if (thermal_expansion != 0.0 || field_expansion != 0.0) {
+                residual = thermal_expansion * temperature_increment + field_expansion * field_increment;
+                add_to_normals(strain, normals, Real(0.0) - residual);
+            }
+            if (out_of_plane != 0.0) add_out_of_plane<kind>(strain, imposed - imposed_old);
+            Stress<kind, Real> change = moduli.template stress<kind>(strain);
+            if (out_of_plane != 0.0) add_imposed_stress<kind>(change, imposed - imposed_old);
+            point.stress = point.stress + change;
+            if constexpr (is_plane_stress) {
+                point.thickness_strain_increment = lateral_strain(change, imposed - imposed_old) + residual;
+                out_of_plane_strain = out_of_plane_strain + point.thickness_strain_increment;
+            }
+            if constexpr (wants_tangent<T>) moduli.template set_stiffness<kind>(tangent);
+        }
+        if constexpr (wants_tangent<T>)
+            if (thermal_expansion != 0.0)
+                for (int i = 0; i < normals; ++i)
+                    tangent.thermal_stress[i] = -thermal_expansion * moduli.template thermal_stiffness<kind>();
+
+        point.elastic_energy = moduli.template energy<kind>(point.stress);
+        if constexpr (is_plane_stress)
+            if (out_of_plane != 0.0)
+                point.elastic_energy =
+                    point.elastic_energy +
+                    (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
+        state.set(1, out_of_plane_strain);
+        state.set(2, imposed);
+        state.set(3, temperature_sum);
+        state.set(4, field_sum);
+    }
+
+    IsotropicModuli moduli;
+    double thermal_expansion, field_expansion;
+    bool total_law;
+    double out_of_plane, ramp_time;
+
+  private:
+    template <AnalysisKind kind, class Real>
+    static void add_out_of_plane(Strain<kind, Real>& strain, const Real& imposed) {
+        if constexpr (kind == AnalysisKind::plane_strain) strain[2] = strain[2] + imposed;
+    }
+    // Plane stress: -Q S_a3 sigma33 = nu/(1 - nu) sigma33 in both directions.
+    template <AnalysisKind kind, class Real>
+    void add_imposed_stress(Stress<kind, Real>& stress, const Real& imposed) const {
+        if constexpr (kind == AnalysisKind::plane_stress)
+            add_to_normals(stress, 2, moduli.poisson / (1.0 - moduli.poisson) * imposed);
+    }
+    // eps33 of plane stress without its residual part.
+    template <class Real>
+    Real lateral_strain(const Stress<AnalysisKind::plane_stress, Real>& s, const Real& imposed) const {
+        return (imposed - moduli.poisson * (s[0] + s[1])) * (1.0 / moduli.young);
+    }
+};
+
+}  // namespace lode

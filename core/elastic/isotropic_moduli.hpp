@@ -1,0 +1,76 @@
+// Isotropic linear elasticity: moduli, stiffness and energy in every continuum kind. Shared by all models that are
+// elastically isotropic.
+#pragma once
+
+#include "lode/material/point.hpp"
+
+namespace lode {
+
+struct IsotropicModuli {
+    double young, poisson, shear, bulk, lame;
+
+    static constexpr IsotropicModuli from_young_poisson(double e, double nu) {
+        return {e, nu, e / (2.0 * (1.0 + nu)), e / (3.0 * (1.0 - 2.0 * nu)), e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))};
+    }
+
+    // Diagonal and off-diagonal normal entries of the stiffness of a kind (plane stress: condensed).
+    template <AnalysisKind kind>
+    constexpr double normal_stiffness() const {
+        if constexpr (kind == AnalysisKind::plane_stress) return young / (1.0 - poisson * poisson);
+        else if constexpr (kind == AnalysisKind::uniaxial) return young;
+        else return lame + 2.0 * shear;
+    }
+    template <AnalysisKind kind>
+    constexpr double coupling_stiffness() const {
+        if constexpr (kind == AnalysisKind::plane_stress) return poisson * young / (1.0 - poisson * poisson);
+        else return lame;
+    }
+
+    // C eps.
+    template <AnalysisKind kind, class Real>
+    Stress<kind, Real> stress(const Strain<kind, Real>& e) const {
+        constexpr int normals = normal_components(kind);
+        Stress<kind, Real> s;
+        if constexpr (kind == AnalysisKind::uniaxial) {
+            s[0] = young * e[0];
+        } else {
+            const double coupling = coupling_stiffness<kind>();
+            const double twice_shear = normal_stiffness<kind>() - coupling;  // 2G also in plane stress
+            const Real volumetric = coupling * trace(e);
+            for (int i = 0; i < normals; ++i) s[i] = volumetric + twice_shear * e[i];
+            for (int i = normals; i < components(kind); ++i) s[i] = shear * e[i];
+        }
+        return s;
+    }
+
+    template <AnalysisKind kind>
+    void set_stiffness(Tangent<kind>& c) const {
+        constexpr int n = components(kind), normals = normal_components(kind);
+        for (int i = 0; i < n * n; ++i) c.stiffness[i] = 0.0;
+        for (int j = 0; j < normals; ++j)
+            for (int i = 0; i < normals; ++i) c(i, j) = i == j ? normal_stiffness<kind>() : coupling_stiffness<kind>();
+        for (int i = normals; i < n; ++i) c(i, i) = shear;
+    }
+
+    // d sigma / d temperature at fixed strain, times -1, per unit expansion coefficient: the normal entries of C 1.
+    template <AnalysisKind kind>
+    constexpr double thermal_stiffness() const {
+        if constexpr (kind == AnalysisKind::plane_stress) return young / (1.0 - poisson);
+        else if constexpr (kind == AnalysisKind::uniaxial) return young;
+        else return 3.0 * bulk;
+    }
+
+    // sigma : S : sigma / 2 per volume; `out_of_plane` is sigma33 of plane stress.
+    template <AnalysisKind kind, class Real>
+    Real energy(const Stress<kind, Real>& s, double out_of_plane = 0.0) const {
+        Real squares = double_contraction(s, s);
+        Real sum = trace(s);
+        if (out_of_plane != 0.0) {
+            squares = squares + out_of_plane * out_of_plane;
+            sum = sum + out_of_plane;
+        }
+        return (0.5 / young) * ((1.0 + poisson) * squares - poisson * (sum * sum));
+    }
+};
+
+}  // namespace lode

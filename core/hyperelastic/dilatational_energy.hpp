@@ -1,0 +1,61 @@
+// The dilatational energies U(J) that all hyperelastic models share (page 50, section 1.4), written in j = J - 1.
+#pragma once
+
+#include "lode/material/description.hpp"
+#include "lode/numerics/scalar.hpp"
+
+namespace lode {
+
+// The PROPS entry that chooses among them.
+constexpr lode_parameter dilatational_option(double default_value) {
+    return optional("UJ", "dilatational energy", "code", code(0, 2), default_value,
+                    "with modulus k: 0 k/2 ((J^2 - 1)/2 - ln J), 1 k/2 (J - 1)^2, 2 k/2 (ln J)^2");
+}
+
+// The volume ratio in the forms that the laws need, each without cancellation.
+template <class Real>
+struct VolumeRatio {
+    Real j;        // J - 1
+    Real J;
+    Real inverse;  // 1/J
+    Real log;      // ln J
+
+    VolumeRatio(const Real& volume_change, const Real& ratio, const Real& logarithm)
+        : j(volume_change), J(ratio), inverse(1.0 / ratio), log(logarithm) {}
+
+    // j - ln J, of second order in j. Small j: ln J = 2 artanh(j/(2 + j)), so that nothing cancels.
+    Real excess_over_logarithm() const {
+        const Mask<Real> small = abs(j) < Real(0.125);
+        if (!any(small)) return j - log;
+        const Real s = j / (2.0 + j), s2 = s * s;
+        const Real tail =
+            1.0 / 3 + s2 * (1.0 / 5 + s2 * (1.0 / 7 + s2 * (1.0 / 9 + s2 * (1.0 / 11 + s2 * (1.0 / 13)))));
+        return select(small, s * (j - 2.0 * s2 * tail), j - log);
+    }
+};
+
+struct DilatationalEnergy {
+    int option = 0;
+    double modulus = 0.0;  // k: the bulk modulus, or Lame's lambda in the neo-Hookean models
+
+    // U per stress-free volume.
+    template <class Real>
+    Real energy(const VolumeRatio<Real>& v) const {
+        if (option == 0) return 0.5 * modulus * (0.5 * square(v.j) + v.excess_over_logarithm());
+        return 0.5 * modulus * square(option == 1 ? v.j : v.log);
+    }
+    // U' = dU/dJ, the mean stress it adds.
+    template <class Real>
+    Real derivative(const VolumeRatio<Real>& v) const {
+        if (option == 0) return 0.5 * modulus * (v.j * (2.0 + v.j)) * v.inverse;
+        return option == 1 ? modulus * v.j : modulus * v.inverse * v.log;
+    }
+    // J U' + J^2 U'' = d(J U')/d(ln J): its part of J C along 1 (x) 1.
+    template <class Real>
+    Real kirchhoff_stiffness(const VolumeRatio<Real>& v) const {
+        if (option == 0) return modulus * square(v.J);
+        return option == 1 ? modulus * v.J * (2.0 * v.J - 1.0) : Real(modulus);
+    }
+};
+
+}  // namespace lode

@@ -1,0 +1,60 @@
+// Residual (thermal, moisture) strain of the isotropic hyperelastic models and the deformation F* = F exp(-e) at which
+// their laws are evaluated (page 50, sections 1.2 and 1.3).
+#pragma once
+
+#include "lode/material/point.hpp"
+#include "lode/tensor/kinematics.hpp"
+
+namespace lode {
+
+struct ResidualStrain {
+    double thermal_expansion = 0.0, moisture_expansion = 0.0;
+
+    // e at the end of the increment, the logarithm of the free stretch since the first call.
+    template <AnalysisKind kind, class Real>
+    Real end(const Increment<kind, Real>& increment, const Real& start) const {
+        Real e = start;
+        if (thermal_expansion != 0.0) e = e + thermal_expansion * increment.temperature_increment();
+        if (moisture_expansion != 0.0) e = e + moisture_expansion * increment.field_increment(1);
+        return e;
+    }
+
+    // Kinematics of F*; without residual strain that of F, at no cost.
+    template <AnalysisKind kind, class Real>
+    Kinematics<kind, Real> mechanical(const Increment<kind, Real>& increment, const Real& e) const {
+        const Matrix3<Real> f = increment.deformation_gradient();
+        if (thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0)))
+            return kinematics<kind>(f);
+        return kinematics<kind>(f, e);
+    }
+};
+
+// Plane stress: completes the kinematics by the thickness stretch F33* and, without cancellation, d = F33* - 1.
+template <class Real>
+inline void set_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k, const Real& stretch, const Real& d) {
+    k.h(2, 2) = d;
+    k.b[2] = d * (2.0 + d);
+    k.jacobian = k.jacobian * stretch;
+    k.j = k.j + d + k.j * d;
+}
+
+// I1 - 3 - 2 (J - 1) = H:H - 2 (sum of principal minors of H) - 2 det H: of second order in H, and formed as such.
+template <AnalysisKind kind, class Real>
+inline Real first_invariant_excess(const Matrix3<Real>& h) {
+    const auto square_of_row = [&h](int i) { return h(i, 0) * h(i, 0) + h(i, 1) * h(i, 1) + h(i, 2) * h(i, 2); };
+    if constexpr (kind == AnalysisKind::solid) {
+        return square_of_row(0) + square_of_row(1) + square_of_row(2) - 2.0 * (second_invariant(h) + determinant(h));
+    } else {
+        const Real squares = h(0, 0) * h(0, 0) + h(0, 1) * h(0, 1) + h(1, 0) * h(1, 0) + h(1, 1) * h(1, 1);
+        const Real minor = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
+        return squares - 2.0 * minor + h(2, 2) * (h(2, 2) - 2.0 * plane_jacobian_minus_one(h));
+    }
+}
+
+// Thickness strain increment (logarithmic) of plane stress from the total F33 - 1.
+template <class Real>
+inline Real thickness_strain_change(const Real& f33m1_old, const Real& f33m1) {
+    return log1p(f33m1) - log1p(f33m1_old);
+}
+
+}  // namespace lode

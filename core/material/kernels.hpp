@@ -1,0 +1,310 @@
+// Puts a model behind a ModelEntry: loads the point from the host's arrays, updates it, stores it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include "lode/material/model_entry.hpp"
+#include "lode/material/point.hpp"
+
+namespace lode {
+
+// A model is a struct with
+//   static constexpr lode_model description;
+//   explicit Model(const Properties&);                            validates, computes what is constant
+//   int required_state(AnalysisKind) const;                       STATEV entries it needs
+//   template <kind, Real, T> void update(const Increment<kind, Real>&, Point<kind, Real>&, T& tangent_or_none) const;
+//   template <kind> void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>&) const;
+// and, if it has something to say at creation, `std::string warnings() const`.
+template <class Model>
+concept MaterialModel = std::constructible_from<Model, const Properties&> &&
+    requires(const Model& model, AnalysisKind kind) {
+    { Model::description } -> std::convertible_to<lode_model>;
+    { model.required_state(kind) } -> std::same_as<int>;
+};
+
+namespace detail {
+
+// Zero if every component is finite, NaN otherwise.
+template <class V>
+inline auto finiteness(const V& a) {
+    auto sum = a[0] * 0.0;
+    for (int i = 1; i < V::size(); ++i) sum = sum + a[i] * 0.0;
+    return sum;
+}
+
+// Flattened, so that the point lives in registers and what no caller reads is never computed.
+template <class Model, AnalysisKind kind>
+[[gnu::flatten]] void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
+    constexpr int n = components(kind);
+    const Model& model = *static_cast<const Model*>(material);
+
+    Increment<kind, double> increment;
+    Point<kind, double> point;
+    for (int i = 0; i < n; ++i) increment.strain_increment[i] = a.dstran[i];
+    for (int i = 0; i < n; ++i) point.stress[i] = a.stress[i];
+    if (!(finiteness(increment.strain_increment) + finiteness(point.stress) + *a.dtime * 0.0 == 0.0)) [[unlikely]] {
+        status.failure = "DSTRAN, STRESS or DTIME on entry is not finite";
+        status.time_step_ratio = 0.25;
+        return;
+    }
+    increment.time_increment = *a.dtime;
+    increment.time_end = a.time[1] + *a.dtime;
+    increment.temperature_source[0] = a.temp;
+    increment.temperature_source[1] = a.dtemp;
+    increment.field_source[0] = a.predef;
+    increment.field_source[1] = a.dpred;
+    increment.deformation_source = a.dfgrd1;
+    increment.element_length_source = a.celent;
+    increment.rotation_source = a.drot;
+    point.state = State<double>(a.statev, a.statev, 1, a.nstatv);
+
+    for (int i = 0; i < n; ++i) a.ddsddt[i] = 0.0;
+    for (int i = 0; i < n; ++i) a.drplde[i] = 0.0;
+    Tangent<kind> tangent{a.ddsdde, a.ddsddt, a.drplde};
+    model.template update<kind, double>(increment, point, tangent);
+
+    status.warning = point.warning;
+    if (point.failure != nullptr) [[unlikely]] {
+        status.failure = point.failure;
+        status.time_step_ratio = point.time_step_ratio;
+        status.refusal = point.refusal;
+        status.refused_value = point.refused_value;
+        status.refused_limit = point.refused_limit;
+        return;
+    }
+    for (int i = 0; i < n; ++i) a.stress[i] = point.stress[i];
+    *a.sse = point.elastic_energy;
+    *a.spd += point.plastic_dissipation;
+    *a.scd += point.viscous_dissipation;
+    *a.rpl = tangent.heat_rate;
+    *a.drpldt = tangent.heat_rate_temperature;
+}
+
+// Column of the VUMAT arrays that holds component i of the UMAT order. The arrays of an explicit plane-stress call have
+// the (3,1) layout.
+template <AnalysisKind kind>
+constexpr int vumat_column(int i) {
+    if constexpr (kind == AnalysisKind::solid) return i == 4 ? 5 : i == 5 ? 4 : i;
+    else if constexpr (kind == AnalysisKind::plane_stress) return i == 2 ? 3 : i;
+    else return i;
+}
+template <AnalysisKind kind>
+constexpr int vumat_columns = kind == AnalysisKind::plane_stress ? 4 : components(kind);
+
+// As many points as the batch has lanes, starting at `first`.
+template <class Model, AnalysisKind kind>
+[[gnu::flatten, gnu::always_inline]] inline void vumat_lanes(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
+    constexpr int n = components(kind), normals = normal_components(kind);
+    const std::ptrdiff_t stride = a.stride;
+
+    Increment<kind, Batch> increment;
+    Point<kind, Batch> point;
+    for (int i = 0; i < n; ++i) {
+        const Batch e = Batch::load_unaligned(a.strain_increment + vumat_column<kind>(i) * stride + first);
+        increment.strain_increment[i] = i < normals ? e : e + e;
+        point.stress[i] = Batch::load_unaligned(a.stress_old + vumat_column<kind>(i) * stride + first);
+    }
+    const auto sane = finiteness(increment.strain_increment) + finiteness(point.stress) == Batch(0.0);
+    if (!all(sane)) [[unlikely]] {
+        point.fail(!sane, "strainInc or stressOld is not finite");
+    } else {
+        increment.time_increment = a.time_increment;
+        increment.time_end = a.time_end;
+        increment.temperature_source[0] = a.temp_old + first;
+        increment.temperature_source[1] = a.temp_new + first;
+        increment.field_source[0] = a.field_old + first;
+        increment.field_source[1] = a.field_new + first;
+        increment.deformation_source = a.stretch_new + first;
+        increment.element_length_source = a.char_length + first;
+        increment.stride = stride;
+        point.state = State<Batch>(a.state_old + first, a.state_new + first, stride, a.nstatev);
+        point.wants_thickness_strain = kind == AnalysisKind::plane_stress;
+        NoTangent none;
+        const Stress<kind, Batch> stress_old = point.stress;
+        model.template update<kind, Batch>(increment, point, none);
+        if (point.warning != nullptr) status.warning = point.warning;
+        if (point.failure == nullptr) [[likely]] {
+            for (int i = 0; i < n; ++i)
+                point.stress[i].store_unaligned(a.stress_new + vumat_column<kind>(i) * stride + first);
+            const Batch inverse_density = 1.0 / Batch::load_unaligned(a.density + first);
+            Batch energy;
+            if constexpr ((Model::description.traits & LODE_FINITE_STRAIN) != 0) {
+                energy = point.elastic_energy * inverse_density;
+            } else {
+                const Batch work = 0.5 * double_contraction(stress_old + point.stress, increment.strain_increment);
+                energy = Batch::load_unaligned(a.internal_energy_old + first) + work * inverse_density;
+            }
+            energy.store_unaligned(a.internal_energy_new + first);
+            const Batch dissipation = point.plastic_dissipation + point.viscous_dissipation;
+            (Batch::load_unaligned(a.inelastic_energy_old + first) + dissipation * inverse_density)
+                .store_unaligned(a.inelastic_energy_new + first);
+            if constexpr (kind == AnalysisKind::plane_stress) {
+                Batch(0.0).store_unaligned(a.stress_new + 2 * stride + first);
+                point.thickness_strain_increment.store_unaligned(a.strain_increment + 2 * stride + first);
+            }
+            return;
+        }
+    }
+    status.failure = point.failure;
+    status.time_step_ratio = point.time_step_ratio;
+    for (int lane = 0; lane < batch_lanes; ++lane)
+        if (point.failed.get(static_cast<std::size_t>(lane))) {
+            status.failed_point = first + lane + 1;
+            status.refusal = point.refusal;
+            status.refused_value = point.refused_value.get(static_cast<std::size_t>(lane));
+            status.refused_limit = point.refused_limit.get(static_cast<std::size_t>(lane));
+            break;
+        }
+}
+
+// The points that do not fill a batch are copied to lanes of their own, the last one repeated.
+template <class Model, AnalysisKind kind>
+void vumat_remainder(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
+    constexpr int lanes = batch_lanes, columns = vumat_columns<kind>;
+    constexpr int workspace_columns = 512;
+    const int count = a.nblock - first;
+    if (3 * columns + 10 + 2 * a.nstatev + 2 * a.nfieldv + 6 > workspace_columns) {
+        status.failure = "too many state and field variables for a block that does not fill the vector registers";
+        status.failed_point = first + 1;
+        return;
+    }
+    std::array<double, std::size_t{workspace_columns} * lanes> workspace;
+    double* next = workspace.data();
+    const auto pack = [&](const double* source, int number) {
+        double* target = next;
+        next += number * lanes;
+        for (int c = 0; c < number; ++c)
+            for (int lane = 0; lane < lanes; ++lane)
+                target[c * lanes + lane] = source[c * a.stride + first + std::min(lane, count - 1)];
+        return target;
+    };
+    const auto reserve = [&](int number) { return std::exchange(next, next + number * lanes); };
+    const auto unpack = [&](const double* source, double* target, int number) {
+        for (int c = 0; c < number; ++c)
+            for (int lane = 0; lane < count; ++lane) target[c * a.stride + first + lane] = source[c * lanes + lane];
+    };
+    VumatArguments b = a;
+    b.nblock = lanes;
+    b.stride = lanes;
+    b.density = pack(a.density, 1);
+    b.temp_old = pack(a.temp_old, 1);
+    b.temp_new = pack(a.temp_new, 1);
+    b.field_old = pack(a.field_old, a.nfieldv);
+    b.field_new = pack(a.field_new, a.nfieldv);
+    if constexpr ((Model::description.traits & LODE_FINITE_STRAIN) != 0) b.stretch_new = pack(a.stretch_new, columns);
+    b.char_length = pack(a.char_length, 1);
+    b.strain_increment = pack(a.strain_increment, columns);
+    b.stress_old = pack(a.stress_old, columns);
+    b.state_old = pack(a.state_old, a.nstatev);
+    b.internal_energy_old = pack(a.internal_energy_old, 1);
+    b.inelastic_energy_old = pack(a.inelastic_energy_old, 1);
+    b.stress_new = reserve(columns);
+    b.state_new = pack(a.state_old, a.nstatev);
+    b.internal_energy_new = reserve(1);
+    b.inelastic_energy_new = reserve(1);
+    vumat_lanes<Model, kind>(model, b, 0, status);
+    if (status.failure != nullptr) {
+        status.failed_point += first;
+        return;
+    }
+    unpack(b.stress_new, a.stress_new, columns);
+    unpack(b.state_new, a.state_new, a.nstatev);
+    unpack(b.internal_energy_new, a.internal_energy_new, 1);
+    unpack(b.inelastic_energy_new, a.inelastic_energy_new, 1);
+    if constexpr (kind == AnalysisKind::plane_stress)
+        unpack(b.strain_increment + 2 * lanes, a.strain_increment + 2 * a.stride, 1);
+}
+
+inline void copy_state(const VumatArguments& a, int from_column) {
+    if (a.state_new == a.state_old) return;
+    for (int c = from_column; c < a.nstatev; ++c)
+        std::copy_n(a.state_old + c * a.stride, a.nblock, a.state_new + c * a.stride);
+}
+
+template <class Model, AnalysisKind kind>
+[[gnu::flatten]] void vumat_call(const void* material, const VumatArguments& a, CallStatus& status) {
+    const Model& model = *static_cast<const Model*>(material);
+    copy_state(a, model.required_state(kind));
+    int first = 0;
+    for (; first + batch_lanes <= a.nblock; first += batch_lanes) {
+        vumat_lanes<Model, kind>(model, a, first, status);
+        if (status.failure != nullptr) [[unlikely]]
+            return;
+    }
+    if (first < a.nblock) vumat_remainder<Model, kind>(model, a, first, status);
+}
+
+// stepTime = totalTime = 0: the host probes with made-up strains. Elastic answer, no history (conventions page).
+template <class Model, AnalysisKind kind>
+void vumat_probe(const void* material, const VumatArguments& a, CallStatus&) {
+    constexpr int n = components(kind), normals = normal_components(kind);
+    const Model& model = *static_cast<const Model*>(material);
+    copy_state(a, 0);
+    for (int p = 0; p < a.nblock; ++p) {
+        Stress<kind, double> stress_old, stress;
+        Strain<kind, double> de;
+        for (int i = 0; i < n; ++i) {
+            const double e = a.strain_increment[vumat_column<kind>(i) * a.stride + p];
+            de[i] = i < normals ? e : 2.0 * e;
+            stress_old[i] = a.stress_old[vumat_column<kind>(i) * a.stride + p];
+        }
+        std::array<double, n * n> c{};
+        Tangent<kind> stiffness{c.data(), nullptr, nullptr};
+        model.template initial_stiffness<kind>(stress_old, State<double>(a.state_old + p, nullptr, a.stride, a.nstatev),
+                                               stiffness);
+        for (int i = 0; i < n; ++i) {
+            stress[i] = stress_old[i];
+            for (int j = 0; j < n; ++j) stress[i] += stiffness(i, j) * de[j];
+            a.stress_new[vumat_column<kind>(i) * a.stride + p] = stress[i];
+        }
+        if constexpr (kind == AnalysisKind::plane_stress) a.stress_new[2 * a.stride + p] = 0.0;
+        a.internal_energy_new[p] =
+            a.internal_energy_old[p] + 0.5 * double_contraction(stress_old + stress, de) / a.density[p];
+        a.inelastic_energy_new[p] = a.inelastic_energy_old[p];
+    }
+}
+
+template <class Model, int k>
+constexpr void fill_kind(ModelEntry& entry) {
+    constexpr auto kind = static_cast<AnalysisKind>(k);
+    if constexpr (serves(Model::description, kind)) {
+        entry.umat[k] = &umat_call<Model, kind>;
+        entry.vumat[k] = &vumat_call<Model, kind>;
+        entry.probe[k] = &vumat_probe<Model, kind>;
+    }
+}
+
+}  // namespace detail
+
+template <MaterialModel Model>
+constexpr ModelEntry make_entry() {
+    ModelEntry entry{};
+    entry.description = &Model::description;
+    entry.size = sizeof(Model);
+    entry.alignment = alignof(Model);
+    entry.construct = [](void* storage, const Properties& properties, std::string& message, std::string& warnings) {
+        try {
+            [[maybe_unused]] const Model* model = ::new (storage) Model(properties);
+            if constexpr (requires { model->warnings(); }) warnings += model->warnings();
+            return true;
+        } catch (const std::exception& error) {
+            message = error.what();
+            return false;
+        }
+    };
+    entry.destroy = [](void* storage) { static_cast<Model*>(storage)->~Model(); };
+    entry.required_state = [](const void* material, AnalysisKind kind) {
+        return static_cast<const Model*>(material)->required_state(kind);
+    };
+    detail::fill_kind<Model, 0>(entry);
+    detail::fill_kind<Model, 1>(entry);
+    detail::fill_kind<Model, 2>(entry);
+    detail::fill_kind<Model, 3>(entry);
+    detail::fill_kind<Model, 4>(entry);
+    detail::fill_kind<Model, 5>(entry);
+    return entry;
+}
+
+}  // namespace lode

@@ -1,0 +1,162 @@
+// What goes into a constitutive update (Increment) and what comes out of it (Point, Tangent), for one material point
+// or, with a batch as number type, for as many as the batch has lanes. Both read host memory in place: nothing is
+// loaded that the model does not ask for.
+#pragma once
+
+#include <cstddef>
+
+#include "lode/material/kind.hpp"
+#include "lode/numerics/scalar.hpp"
+#include "lode/tensor/matrix3.hpp"
+#include "lode/tensor/voigt.hpp"
+
+namespace lode {
+
+// The loading of one increment.
+template <AnalysisKind kind, class Real>
+struct Increment {
+    using S = Storage<Real>;
+
+    Strain<kind, Real> strain_increment;  // DSTRAN, engineering shears; cohesive: separation / thickness
+    double time_increment = 0.0;          // DTIME
+    double time_end = 0.0;                // total time at the end of the increment
+
+    // Where the rest is found. UMAT: temperature, field at the start and their changes; VUMAT: old and new values,
+    // one column of `stride` points each.
+    const S* temperature_source[2] = {};
+    const S* field_source[2] = {};
+    const S* deformation_source = nullptr;  // UMAT: DFGRD1 column by column; VUMAT: stretchNew
+    const S* element_length_source = nullptr;
+    const double* rotation_source = nullptr;  // DROT column by column; null where the frame turns with the material
+    std::ptrdiff_t stride = 1;
+
+    Real temperature_increment() const { return change(temperature_source, 0); }
+    Real temperature_end() const { return end(temperature_source, 0); }
+    // Field variable `number` (1-based).
+    Real field_increment(int number) const { return change(field_source, number - 1); }
+    Real field_end(int number) const { return end(field_source, number - 1); }
+    Real field_start(int number) const { return load<Real>(field_source[0] + (number - 1) * stride); }
+    Real element_length() const { return load<Real>(element_length_source); }
+
+    // DFGRD1. In a VUMAT the stretch U takes its place: sigma(U) is the corotational stress (page 50, 1.7).
+    Matrix3<Real> deformation_gradient() const {
+        Matrix3<Real> f;
+        if constexpr (is_batch<Real>) {
+            const auto u = [&](int c) { return load<Real>(deformation_source + c * stride); };
+            for (int i = 0; i < 3; ++i) f(i, i) = u(i);
+            f(0, 1) = f(1, 0) = u(3);
+            if constexpr (kind == AnalysisKind::solid) {
+                f(1, 2) = f(2, 1) = u(4);
+                f(0, 2) = f(2, 0) = u(5);
+            } else {
+                f(1, 2) = f(2, 1) = f(0, 2) = f(2, 0) = Real(0.0);
+            }
+        } else {
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) f(i, j) = deformation_source[i + 3 * j];
+        }
+        return f;
+    }
+
+    bool has_rotation() const { return rotation_source != nullptr; }
+    // DROT; ask only if there is one.
+    Matrix3<Real> rotation() const {
+        Matrix3<Real> r;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) r(i, j) = Real(rotation_source[i + 3 * j]);
+        return r;
+    }
+
+  private:
+    Real change(const S* const source[2], int column) const {
+        if constexpr (is_batch<Real>)
+            return load<Real>(source[1] + column * stride) - load<Real>(source[0] + column * stride);
+        else return source[1][column];
+    }
+    Real end(const S* const source[2], int column) const {
+        if constexpr (is_batch<Real>) return load<Real>(source[1] + column * stride);
+        else return source[0][column] + source[1][column];
+    }
+};
+
+// STATEV by the page's 1-based index. UMAT: old and new are the same memory, so an update reads all it needs before it
+// sets anything, and sets nothing once it has failed.
+template <class Real>
+class State {
+  public:
+    using S = Storage<Real>;
+    State() = default;
+    State(const S* old_values, S* new_values, std::ptrdiff_t stride, int count)
+        : old_(old_values), new_(new_values), stride_(stride), count_(count) {}
+
+    Real operator[](int index) const { return load<Real>(old_ + (index - 1) * stride_); }
+    void set(int index, const Real& value) { store<Real>(new_ + (index - 1) * stride_, value); }
+    // Entries the host provides (NSTATV).
+    int count() const { return count_; }
+    bool has(int index) const { return index <= count_; }
+
+  private:
+    const S* old_ = nullptr;
+    S* new_ = nullptr;
+    std::ptrdiff_t stride_ = 1;
+    int count_ = 0;
+};
+
+// The material point. Energies are per current volume (cohesive: as the page says).
+template <AnalysisKind kind, class Real>
+struct Point {
+    Stress<kind, Real> stress;  // in: start of the increment, in the frame of its end; out: end
+    State<Real> state;
+    Real elastic_energy = Real(0.0);              // out: at the end (SSE)
+    Real plastic_dissipation = Real(0.0);         // out: of this increment (added to SPD)
+    Real viscous_dissipation = Real(0.0);         // out: of this increment (added to SCD)
+    Real thickness_strain_increment = Real(0.0);  // out, plane stress
+    bool wants_thickness_strain = false;          // some models pay for it
+
+    // The increment cannot be done in the lanes of `where`: nothing has been written. UMAT asks for `smaller` times the
+    // increment, VUMAT stops with `reason`.
+    void fail(const Mask<Real>& where, const char* reason, double smaller = 0.25) {
+        failed = where;
+        failure = reason;
+        time_step_ratio = smaller;
+    }
+    // What the host passed makes no sense for this material, whatever the increment: the analysis ends with
+    // "<what> = <value> must be <allowed> <limit>". A limit of 0 is not printed.
+    void refuse(const Mask<Real>& where, const char* what, const Real& value, const char* allowed,
+                const Real& limit = Real(0.0)) {
+        fail(where, what);
+        refused_value = value;
+        refused_limit = limit;
+        refusal = allowed;
+    }
+    // Something the user should know once, though the update goes on.
+    void warn(const char* message) { warning = message; }
+
+    Mask<Real> failed = Mask<Real>(false);
+    const char* failure = nullptr;
+    const char* warning = nullptr;
+    double time_step_ratio = 1.0;
+    const char* refusal = nullptr;
+    Real refused_value = Real(0.0), refused_limit = Real(0.0);
+};
+
+// DDSDDE and its thermal companions, written in place. Column-major as in Fortran: (i, j) = d stress_i / d strain_j.
+template <AnalysisKind kind>
+struct Tangent {
+    static constexpr int n = components(kind);
+    double* stiffness = nullptr;         // DDSDDE
+    double* thermal_stress = nullptr;    // DDSDDT, n entries, zero on entry
+    double* heat_rate_strain = nullptr;  // DRPLDE, n entries, zero on entry
+    double heat_rate = 0.0;              // RPL
+    double heat_rate_temperature = 0.0;  // DRPLDT
+
+    double& operator()(int i, int j) { return stiffness[i + n * j]; }
+    double operator()(int i, int j) const { return stiffness[i + n * j]; }
+};
+
+// Passed instead of a Tangent by callers that need none and shall not pay for it.
+struct NoTangent {};
+template <class T>
+inline constexpr bool wants_tangent = !std::is_same_v<T, NoTangent>;
+
+}  // namespace lode

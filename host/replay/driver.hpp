@@ -1,0 +1,48 @@
+// Drives a material point through the steps of a scenario. No files, no printing: observers see every increment.
+#ifndef LODE_HOST_REPLAY_DRIVER_HPP
+#define LODE_HOST_REPLAY_DRIVER_HPP
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "../library.hpp"
+#include "../status.hpp"
+#include "point.hpp"
+#include "scenario.hpp"
+
+namespace lode::host {
+
+// An increment that was accepted. The first record, with `increment` 0, is the initial state and has no response.
+struct Record {
+    int step = 0, increment = 0;
+    const std::string& step_name;
+    double dtime = 0;
+    int iterations = 0;
+    const PointState& point;
+    const Response* response = nullptr;
+};
+using Observer = std::function<void(const Record&)>;
+
+struct Statistics {
+    int increments = 0, cut_backs = 0;
+    int iterations = 0, most_iterations = 0;  // Newton corrections of accepted increments
+    CallCount calls;
+};
+
+struct Outcome {
+    Status status = Status::success;
+    std::string message;  // if not success
+    std::vector<std::string> remarks;
+    Statistics statistics;
+};
+
+// Fills in what the deck left to the library: STATEV, large rotation, named initial state. Throws Refused or BadDeck.
+void resolve(Scenario& scenario, const Library& library);
+
+// The scenario has been resolved. Throws NotLoaded if the library lacks the entry point; all else is in the outcome.
+Outcome drive(const Scenario& scenario, const Library& library, const Observer& observer);
+
+}  // namespace lode::host
+
+#endif

@@ -1,0 +1,216 @@
+// The explicit entry point computes what the implicit one does, whatever the block looks like.
+#include <dlfcn.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstring>
+
+#include "property_suite.hpp"
+#include "vumat_block.hpp"
+
+namespace lode::test {
+namespace {
+
+Matrix3d stretch_of(const Matrix3d& f) {
+    return Eigen::SelfAdjointEigenSolver<Matrix3d>(f.transpose() * f).operatorSqrt();
+}
+
+// A material point somewhere on its path, and the increment that comes next, without rotation.
+struct Situation {
+    UmatPoint point;
+    Load load;
+};
+
+// As many situations as asked for, all different: virgin points, loading, unloading, small and large increments, so
+// that neighbours in a block take different branches.
+std::vector<Situation> situations(const Case& c, std::size_t count) {
+    std::vector<Situation> all;
+    for (std::uint64_t seed = 1; all.size() < count; ++seed) {
+        Random random(c, seed);
+        UmatPoint point = c.point();
+        for (Step& step : random_path(c, random)) {
+            UmatPoint start = point;
+            start.deformation_gradient(stretch_of(point.deformation_gradient()));
+            Step next = step;
+            if (random.chance(0.3)) next.strain = scaled(step.strain, random.log_uniform(1e-6, 1.0));
+            Load load = load_of(start, next);
+            load.dfgrd1 = stretch_of(*load.dfgrd1);
+            const Answer answer = start.evaluate(load);
+            if (answer.done() && all.size() < count && random.chance(0.5)) all.push_back({start, load});
+            point.step(load_of(point, step));
+        }
+    }
+    return all;
+}
+
+VumatPoint block_point(const UmatPoint& p, const Load& load) {
+    VumatPoint v;
+    v.stress = p.stress();
+    v.state = p.state();
+    v.strain_increment = load.dstran;
+    v.stretch = *load.dfgrd1;
+    v.temperature_old = v.temperature_new = p.temperature();
+    v.fields_old = v.fields_new = p.fields();
+    v.celent = p.celent();
+    v.density = 2.0;
+    v.internal_energy = 0.5;
+    v.inelastic_energy = 0.25;
+    return v;
+}
+
+VumatBlock block_of(const Case& c, const std::vector<Situation>& all, std::size_t count) {
+    VumatBlock block(c.material(), c.kind, c.props());
+    for (std::size_t i = 0; i < count; ++i) block.points.push_back(block_point(all[i].point, all[i].load));
+    block.total_time = all.front().point.total_time() + all.front().load.dtime;
+    return block;
+}
+
+bool identical(const VumatPoint& a, const VumatPoint& b) {
+    return test::identical(a.stress, b.stress) && test::identical(a.state, b.state) &&
+           test::identical({a.internal_energy, a.inelastic_energy, a.thickness_strain_increment},
+                           {b.internal_energy, b.inelastic_energy, b.thickness_strain_increment});
+}
+
+class Vumat : public testing::TestWithParam<Case> {};
+
+TEST_P(Vumat, AgreesWithUmat) {
+    const Case& c = GetParam();
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const std::vector<Situation> all = situations(c, 144);
+    VumatBlock block = block_of(c, all, all.size());
+    ASSERT_EQ(block.run().stops, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        SCOPED_TRACE("point " + std::to_string(i + 1));
+        const Situation& s = all[i];
+        const Answer umat = s.point.evaluate(s.load);
+        const VumatPoint& vumat = block.points[i];
+        // The two are compiled with different vector units: sums may be fused and functions differ in the last place.
+        // What counts is the elastic predictor of the increment, from which the stress comes by cancellation.
+        const double scale = std::max(
+            {c.stress_scale(), largest(s.point.stress()), largest(umat.stress), c.stiffness * largest(s.load.dstran)});
+        EXPECT_LE(distance(vumat.stress, umat.stress), 16.0 * epsilon * scale);
+        for (std::size_t k = 0; k < umat.state.size(); ++k)
+            EXPECT_NEAR(
+                vumat.state[k], umat.state[k],
+                64.0 * epsilon * std::max(std::abs(umat.state[k]), largest(umat.stress) / c.stiffness + c.scale()))
+                << "STATEV(" << k + 1 << ")";
+        const double dissipated = umat.spd - s.point.spd() + umat.scd - s.point.scd();
+        EXPECT_NEAR((vumat.inelastic_energy - 0.25) * vumat.density, dissipated,
+                    64.0 * epsilon * (scale * c.scale() + vumat.density));
+    }
+}
+
+// A point's answer does not depend on how many others there are or where it stands among them: bit for bit.
+TEST_P(Vumat, AnswersDoNotDependOnTheBlock) {
+    const Case& c = GetParam();
+    const std::vector<Situation> all = situations(c, 144);
+    VumatBlock reference = block_of(c, all, all.size());
+    ASSERT_EQ(reference.run().stops, 0);
+    for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{8}, std::size_t{128}}) {
+        SCOPED_TRACE("block of " + std::to_string(size));
+        VumatBlock block = block_of(c, all, size);
+        ASSERT_EQ(block.run().stops, 0);
+        for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(identical(block.points[i], reference.points[i])) << i + 1;
+    }
+    VumatBlock reversed = block_of(c, all, all.size());
+    std::reverse(reversed.points.begin(), reversed.points.end());
+    ASSERT_EQ(reversed.run().stops, 0);
+    std::reverse(reversed.points.begin(), reversed.points.end());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_TRUE(identical(reversed.points[i], reference.points[i])) << i + 1;
+}
+
+// stepTime = totalTime = 0 is a probe with made-up strains: an elastic answer, no history.
+TEST_P(Vumat, ProbeIsElastic) {
+    const Case& c = GetParam();
+    VumatBlock block(c.material(), c.kind, c.props());
+    Random random(c, 11);
+    const UmatPoint point = c.point();
+    const Answer virgin = point.evaluate({.dtime = 0.0});
+    for (int i = 0; i < 9; ++i) {
+        VumatPoint p = block.fresh_point();
+        p.stress = virgin.stress;
+        p.strain_increment = scaled(random.direction(p.stress.size()), 100.0 * c.scale());
+        block.points.push_back(p);
+    }
+    const std::vector<VumatPoint> before = block.points;
+    block.step_time = block.total_time = 0.0;
+    ASSERT_EQ(block.run().stops, 0);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const Eigen::Map<const Eigen::VectorXd> e(before[i].strain_increment.data(), point.size());
+        const Eigen::VectorXd expected =
+            virgin.tangent * e + Eigen::Map<const Eigen::VectorXd>(virgin.stress.data(), point.size());
+        for (int k = 0; k < point.size(); ++k)
+            EXPECT_NEAR(block.points[i].stress[static_cast<std::size_t>(k)], expected(k),
+                        100.0 * c.stress_scale() * 1e-14);
+        EXPECT_TRUE(test::identical(block.points[i].state, before[i].state));
+        EXPECT_EQ(block.points[i].inelastic_energy, before[i].inelastic_energy);
+    }
+}
+
+TEST_P(Vumat, StopsAtNonFiniteInput) {
+    const Case& c = GetParam();
+    const std::vector<Situation> all = situations(c, 21);
+    for (const std::size_t bad : {std::size_t{0}, std::size_t{9}, std::size_t{20}}) {
+        VumatBlock block = block_of(c, all, all.size());
+        block.points[bad].strain_increment[0] = std::numeric_limits<double>::quiet_NaN();
+        const HostMessages messages = block.run();
+        EXPECT_EQ(messages.stops, 1);
+        ASSERT_EQ(messages.errors.size(), 1u);
+        EXPECT_NE(messages.errors.front().find(c.model->keyword), std::string::npos);
+        EXPECT_NE(messages.errors.front().find("point " + std::to_string(bad + 1)), std::string::npos)
+            << messages.errors.front();
+    }
+}
+
+// Single precision is double precision between rounded arrays: with inputs that floats can hold, the answer is the
+// rounded one of the double library, exactly.
+TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
+    const Case& c = GetParam();
+    struct Library {
+        void* handle = dlopen(LODE_SINGLE_PRECISION_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+        VumatFunctionOf<float> vumat =
+            handle != nullptr ? reinterpret_cast<VumatFunctionOf<float>>(dlsym(handle, "vumat_")) : nullptr;
+    };
+    static const Library library;
+    ASSERT_NE(library.vumat, nullptr) << dlerror();
+    const auto round = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    const auto round_all = [&](Numbers& v) {
+        for (double& x : v) x = round(x);
+    };
+    const std::vector<Situation> all = situations(c, 144);
+    Numbers props = c.props();
+    round_all(props);
+    for (const std::size_t size : {std::size_t{7}, std::size_t{144}}) {
+        VumatBlock single(c.material(), c.kind, props);
+        for (std::size_t i = 0; i < size; ++i) {
+            VumatPoint p = block_point(all[i].point, all[i].load);
+            round_all(p.stress);
+            round_all(p.state);
+            round_all(p.strain_increment);
+            for (double& x : p.stretch.reshaped()) x = round(x);
+            p.celent = round(p.celent);
+            p.temperature_old = round(p.temperature_old);
+            p.temperature_new = round(p.temperature_new);
+            single.points.push_back(p);
+        }
+        VumatBlock twice = single;
+        const HostMessages a = single.run_with(library.vumat), b = twice.run();
+        ASSERT_EQ(a.stops, b.stops);
+        if (b.stops > 0) continue;  // rounding may push a point where the model cannot go; both say so
+        for (std::size_t i = 0; i < size; ++i) {
+            round_all(twice.points[i].stress);
+            round_all(twice.points[i].state);
+            EXPECT_EQ(single.points[i].stress, twice.points[i].stress) << i + 1;
+            EXPECT_EQ(single.points[i].state, twice.points[i].state) << i + 1;
+            EXPECT_EQ(single.points[i].internal_energy, round(twice.points[i].internal_energy));
+            EXPECT_EQ(single.points[i].inelastic_energy, round(twice.points[i].inelastic_energy));
+            EXPECT_EQ(single.points[i].thickness_strain_increment, round(twice.points[i].thickness_strain_increment));
+        }
+    }
+}
+
+LODE_FOR_ALL_CASES(Vumat);
+
+}  // namespace
+}  // namespace lode::test

@@ -1,0 +1,235 @@
+// ISO_ELASTIC against the verification cases of page 10 (twelve digits there) and its refusals.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "umat_point.hpp"
+
+namespace lode::test {
+namespace {
+
+using enum AnalysisKind;
+
+// The page rounds to twelve significant digits.
+void expect_page(const Numbers& actual, const Numbers& page) {
+    ASSERT_EQ(actual.size(), page.size());
+    for (std::size_t i = 0; i < page.size(); ++i)
+        EXPECT_NEAR(actual[i], page[i], 5e-12 * std::max(largest(page), 1e-300)) << "component " << i + 1;
+}
+
+TEST(IsoElastic, I1_SolidIncrement) {
+    UmatPoint point("ISO_ELASTIC-I1", solid, {200000.0, 0.3});
+    const Answer answer = point.advance({.dstran = {1e-3, -2e-4, 5e-4, 4e-4, -6e-4, 8e-4}});
+    expect_page(answer.stress,
+                {303.846153846, 119.230769231, 226.923076923, 30.7692307692, -46.1538461538, 61.5384615385});
+    EXPECT_NEAR(answer.sse, 0.241346153846, 1e-12);
+    EXPECT_EQ(answer.spd, 0.0);
+    EXPECT_EQ(answer.scd, 0.0);
+    EXPECT_EQ(answer.rpl, 0.0);
+}
+
+TEST(IsoElastic, I2_PlaneStrainWithExpansion) {
+    UmatPoint point("ISO_ELASTIC-I2", plane_strain, {70000.0, 0.33, 2.3e-5, 0.01});
+    expect_page(point.advance({.dstran = {1e-3, 0, 0, 5e-4}, .dtemp = 40.0}).stress,
+                {-85.6965944272, -138.328173375, -138.328173375, 13.1578947368});
+    expect_page(point.advance({.dstran = {0, -3e-4, 0, 0}, .dtemp = -15.0, .dpred = {0.02}}).stress,
+                {-71.1687306502, -139.589783282, -123.800309598, 13.1578947368});
+    EXPECT_EQ(point.state(3), 25.0);
+    EXPECT_EQ(point.state(4), 0.02);
+}
+
+TEST(IsoElastic, I3_GeneralizedPlaneStress) {
+    UmatPoint point("ISO_ELASTIC-I3", plane_stress, {70000.0, 0.33, 2.3e-5, 0.0, 0.0, -50.0, 2.0});
+    expect_page(point.advance({.dstran = {1e-3, 2e-4, 5e-4}}).stress, {71.4257659073, 29.3205027494, 13.1578947368});
+    EXPECT_NEAR(point.state(1), -8.32089552239e-4, 1e-15);
+    EXPECT_EQ(point.state(2), -25.0);
+    expect_page(point.advance({.dtemp = 10.0}).stress, {35.0824823252, -7.02278083268, 13.1578947368});
+    EXPECT_NEAR(point.state(1), -6.16567164179e-4, 1e-15);
+    EXPECT_EQ(point.state(2), -50.0);
+    expect_page(point.advance({.dstran = {1e-4, 0, 0}}).stress, {42.9379418696, -4.43047918303, 13.1578947368});
+    EXPECT_NEAR(point.state(1), -6.65820895522e-4, 1e-15);
+}
+
+TEST(IsoElastic, I4_GeneralizedPlaneStrain) {
+    UmatPoint point("ISO_ELASTIC-I4", plane_strain, {70000.0, 0.33, 0.0, 0.0, 0.0, 1e-3, 0.0});
+    expect_page(point.advance({.dstran = {5e-4, 0, 0, 0}}).stress, {102.941176471, 76.6253869969, 129.256965944, 0.0});
+    expect_page(point.advance({.dstran = {5e-4, 0, 0, 0}}).stress, {154.79876161, 102.167182663, 154.79876161, 0.0});
+}
+
+TEST(IsoElastic, I5_Uniaxial) {
+    UmatPoint point("ISO_ELASTIC-I5", uniaxial, {210000.0, 0.29, 1.2e-5});
+    const Answer answer = point.advance({.dstran = {1e-3}, .dtemp = 25.0});
+    EXPECT_NEAR(answer.stress[0], 147.0, 147.0 * 1e-14);
+    EXPECT_EQ(answer.tangent(0, 0), 210000.0);
+    EXPECT_NEAR(answer.ddsddt[0], -210000.0 * 1.2e-5, 1e-15);
+}
+
+Matrix3d simple_shear(double gamma) {
+    Matrix3d f = Matrix3d::Identity();
+    f(0, 1) = gamma;
+    return f;
+}
+
+TEST(IsoElastic, I6_TotalLawInSimpleShear) {
+    UmatPoint point("ISO_ELASTIC-I6", solid, {1000.0, 0.25, 0.0, 0.0, 1.0});
+    const Answer answer = point.advance({.dfgrd1 = simple_shear(0.5)});
+    expect_page(answer.stress, {97.7493752543, 0.735125239798, 24.6211251235, 194.028500029, 0.0, 0.0});
+    Eigen::Matrix4d page;
+    page << 1430.26863281, 462.97949296, 497.74937525, 188.32177944,  //
+        414.47236795, 1187.73300777, 400.73512524, 199.73522062,      //
+        461.18525019, 412.67812518, 1224.62112512, 97.01425001,       //
+        285.33602945, 296.74947063, 194.02850003, 413.73724271;
+    // The page gives eight decimals.
+    EXPECT_LE((answer.tangent.topLeftCorner<4, 4>() - page).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_NEAR(answer.tangent(4, 4), 424.62112512, 1e-8);
+    EXPECT_NEAR(answer.tangent(5, 5), 400.0, 1e-8);
+    EXPECT_NEAR(answer.tangent(4, 5), 49.24225025, 1e-8);
+    EXPECT_NEAR(answer.tangent(5, 4), 49.24225025, 1e-8);
+}
+
+TEST(IsoElastic, I7_TotalLawInPlaneStress) {
+    UmatPoint point("ISO_ELASTIC-I7", plane_stress, {1000.0, 0.25, 0.0, 0.0, 1.0});
+    expect_page(point.advance({.dfgrd1 = simple_shear(0.5)}).stress, {89.5423335465, -7.47191646805, 194.028500029});
+    EXPECT_NEAR(point.state(1), -0.0205176042696, 1e-13);
+}
+
+// Section 6: exact values at gamma = 2, G = 400.
+TEST(IsoElastic, TotalLawAtShearTwo) {
+    UmatPoint point("ISO_ELASTIC-TOTAL", solid, {1000.0, 0.25, 0.0, 0.0, 2.0});
+    expect_page(point.advance({.dfgrd1 = simple_shear(2.0)}).stress,
+                {1228.42712475, 97.0562748477, 331.370849898, 565.685424949, 0.0, 0.0});
+}
+
+// Simple shear to `gamma` in equal increments by a host that puts ln V of each increment on the stress turned by its
+// rotation (algorithm P of section 6).
+UmatPoint jaumann_shear(double gamma, int increments) {
+    UmatPoint point("ISO_ELASTIC-JAUMANN", solid, {1000.0, 0.25});
+    const Matrix3d f = simple_shear(gamma / increments);
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> b(f * f.transpose());
+    const Matrix3d& n = b.eigenvectors();
+    const Matrix3d log_v = 0.5 * (n * b.eigenvalues().array().log().matrix().asDiagonal() * n.transpose());
+    const Matrix3d drot = b.operatorInverseSqrt() * f;
+    for (int i = 0; i < increments; ++i) point.advance({.dstran = to_components(log_v, solid, 2.0), .drot = drot});
+    return point;
+}
+
+TEST(IsoElastic, JaumannShearHasTheErrorsOfThePage) {
+    const double g = 400.0, gamma = 2.0;
+    const Matrix3d exact = stress_tensor(
+        {g * (1.0 - std::cos(gamma)), -g * (1.0 - std::cos(gamma)), 0.0, g * std::sin(gamma), 0.0, 0.0}, solid);
+    // Increments and error norm/G as tabulated, three digits.
+    const std::pair<int, double> table[] = {{4, 5.08e-2}, {16, 3.28e-3}, {64, 2.06e-4}, {256, 1.29e-5}};
+    for (const auto& [increments, error] : table) {
+        const UmatPoint point = jaumann_shear(gamma, increments);
+        EXPECT_NEAR((stress_tensor(point.stress(), solid) - exact).norm() / g, error, 0.005 * error) << increments;
+    }
+}
+
+// G sin(gamma) has its maximum at gamma = pi/2.
+TEST(IsoElastic, JaumannShearStressPeaks) {
+    const double peak = 0.5 * std::numbers::pi;
+    const auto shear_stress = [](double gamma) { return jaumann_shear(gamma, 200).stress()[3]; };
+    EXPECT_LT(shear_stress(peak - 0.1), shear_stress(peak));
+    EXPECT_LT(shear_stress(peak + 0.1), shear_stress(peak));
+}
+
+// Uniaxial tension with free sides: the lateral logarithmic strain is -nu times the axial one, so the nominal force
+// E e exp(-2 nu e) is largest at e = 1/(2 nu).
+TEST(IsoElastic, NominalForcePeaksWithLogarithmicIncrements) {
+    const double nu = 0.3;
+    const auto nominal_force = [nu](double e) {
+        UmatPoint point("ISO_ELASTIC-BAR", uniaxial, {1000.0, nu});
+        point.advance({.dstran = {e}});
+        return point.stress()[0] * std::exp(-2.0 * nu * e);
+    };
+    const double peak = 1.0 / (2.0 * nu);
+    EXPECT_NEAR(std::exp(peak), 5.29, 0.005);
+    EXPECT_LT(nominal_force(peak * 0.95), nominal_force(peak));
+    EXPECT_LT(nominal_force(peak * 1.05), nominal_force(peak));
+}
+
+// The total law: lateral stretch 1 - nu e, force E e (1 - nu e)^2, largest at e = 1/(3 nu).
+TEST(IsoElastic, NominalForcePeaksWithTotalLaw) {
+    const double nu = 0.3;
+    const auto nominal_force = [nu](double e) {
+        UmatPoint point("ISO_ELASTIC-BAR", solid, {1000.0, nu, 0.0, 0.0, 1.0});
+        const double side = 1.0 - nu * e;
+        const Answer answer = point.advance({.dfgrd1 = Eigen::Vector3d(1.0 + e, side, side).asDiagonal()});
+        EXPECT_NEAR(answer.stress[1], 0.0, 1e-12 * 1000.0);
+        return answer.stress[0] * side * side;
+    };
+    const double peak = 1.0 / (3.0 * nu);
+    EXPECT_LT(nominal_force(peak * 0.95), nominal_force(peak));
+    EXPECT_LT(nominal_force(peak * 1.05), nominal_force(peak));
+}
+
+// As lambda -> 0 in constrained compression the total law ends at -(lam + 2G): nothing resists inversion.
+TEST(IsoElastic, TotalLawIsFiniteInFullCompression) {
+    UmatPoint point("ISO_ELASTIC-CRUSH", solid, {1000.0, 0.25, 0.0, 0.0, 1.0});
+    const Answer answer = point.advance({.dfgrd1 = Eigen::Vector3d(1e-9, 1.0, 1.0).asDiagonal()});
+    EXPECT_NEAR(answer.stress[0], -1200.0, 1200.0 * 2e-9);
+}
+
+// det F <= 0 (in the plane kinds of the in-plane part) asks for a smaller increment and changes nothing, which the
+// point checks; F33 of plane stress is the host's guess and is not read.
+TEST(IsoElastic, InvertedElementAsksForASmallerIncrement) {
+    const Numbers props = {1000.0, 0.25, 0.0, 0.0, 1.0};
+    for (const AnalysisKind kind : {solid, plane_strain, plane_stress}) {
+        UmatPoint point("ISO_ELASTIC-INVERTED", kind, props);
+        for (const double stretch : {0.0, -0.5}) {
+            const Answer answer = point.step({.dfgrd1 = Eigen::Vector3d(stretch, 1.0, 1.0).asDiagonal()});
+            EXPECT_TRUE(answer.cut);
+            EXPECT_EQ(answer.pnewdt, 0.25);
+        }
+    }
+    UmatPoint point("ISO_ELASTIC-GUESS", plane_stress, props);
+    EXPECT_TRUE(point.step({.dfgrd1 = Eigen::Vector3d(1.1, 1.0, -7.0).asDiagonal()}).done());
+}
+
+// Host stress and strain increment play no part in the total law; the 1D kind has no total law.
+TEST(IsoElastic, TotalLawReadsOnlyTheDeformationGradient) {
+    const Numbers props = {1000.0, 0.25, 0.0, 0.0, 1.0};
+    UmatPoint plain("ISO_ELASTIC-A", solid, props), stressed("ISO_ELASTIC-A", solid, props);
+    stressed.stress({50.0, 0.0, 0.0, 3.0, 0.0, 0.0});
+    const Numbers expected = plain.advance({.dfgrd1 = simple_shear(0.3)}).stress;
+    EXPECT_TRUE(
+        identical(stressed.advance({.dstran = {0.1, 0, 0, 0, 0, 0}, .dfgrd1 = simple_shear(0.3)}).stress, expected));
+    UmatPoint bar("ISO_ELASTIC-A", uniaxial, props);
+    EXPECT_EQ(bar.advance({.dstran = {0.01}, .dfgrd1 = simple_shear(0.3)}).stress[0], 10.0);
+}
+
+// A rotating body with the total law keeps the stress of its frame, whatever the number of increments (column L).
+TEST(IsoElastic, TotalLawUnderFullTurn) {
+    UmatPoint point("ISO_ELASTIC-TURN", solid, {1000.0, 0.25, 0.0, 0.0, 1.0});
+    Matrix3d stretch = Matrix3d::Identity();
+    stretch(0, 0) = 1.1;
+    const Numbers start = point.advance({.dfgrd1 = stretch}).stress;
+    for (int i = 1; i <= 100; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / 100;
+        point.advance({.dfgrd1 = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix() * stretch});
+    }
+    EXPECT_LE(distance(point.stress(), start), 1e-13 * 1000.0);
+}
+
+TEST(IsoElastic, RefusesWhatCannotBe) {
+    const auto refusal = [](Numbers props) {
+        UmatPoint point("ISO_ELASTIC-BAD", solid, std::move(props));
+        const Answer answer = point.nstatv(4).step({});
+        EXPECT_EQ(answer.messages.stops, 1);
+        return answer.first_error();
+    };
+    EXPECT_NE(refusal({200000.0, 0.5}).find("NU"), std::string::npos);
+    EXPECT_NE(refusal({200000.0, -1.0}).find("NU"), std::string::npos);
+    EXPECT_NE(refusal({0.0, 0.3}).find("(E,"), std::string::npos);
+    EXPECT_NE(refusal({200000.0}).find("NU"), std::string::npos);
+    EXPECT_NE(refusal({200000.0, 0.3, 0.0, 0.0, 3.0}).find("KIN"), std::string::npos);
+    EXPECT_NE(refusal({200000.0, 0.3, 0.0, 0.0, 0.0, 0.0, -1.0}).find("TOOP"), std::string::npos);
+    UmatPoint cohesive("ISO_ELASTIC-BAD", cohesive_3d, {200000.0, 0.3});
+    EXPECT_NE(cohesive.nstatv(4).step({}).first_error().find("cohesive (1,2)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lode::test

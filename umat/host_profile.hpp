@@ -1,0 +1,14 @@
+// Hosts differ in the frame they keep stress and state in (conventions page, "Hosts differ").
+#pragma once
+
+namespace lode {
+
+enum class HostProfile { abaqus, calculix };
+
+// LODE_HOST=abaqus|calculix in the environment decides; else PNEWDT <= 0 on entry gives CalculiX away.
+HostProfile host_profile(double pnewdt_on_entry);
+
+// The right stretch U of F = R U, both column by column; returns F itself if it is symmetric already or det F <= 0.
+const double* unrotated(const double* deformation_gradient, double* stretch);
+
+}  // namespace lode

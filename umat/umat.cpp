@@ -1,0 +1,49 @@
+// The implicit entry point, by the Abaqus/Standard convention (conventions page, "UMAT meaning of the arrays").
+#include "call.hpp"
+#include "host_profile.hpp"
+
+namespace {
+
+using namespace lode;
+
+// PNEWDT is touched only when a smaller increment is wanted; hosts enter with 1, a huge number or (CalculiX) -1.
+void ask_for_smaller_increment(double& pnewdt, double ratio) {
+    if (pnewdt <= 0.0 || pnewdt > ratio) pnewdt = ratio;
+}
+
+}  // namespace
+
+extern "C" LODE_API void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
+                               double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* /*stran*/,
+                               const double* dstran, const double* time, const double* dtime, const double* temp,
+                               const double* dtemp, const double* predef, const double* dpred, const char* cmname,
+                               const int* ndi, const int* nshr, const int* /*ntens*/, const int* nstatv,
+                               const double* props, const int* nprops, const double* /*coords*/, const double* drot,
+                               double* pnewdt, const double* celent, const double* /*dfgrd0*/, const double* dfgrd1,
+                               const int* /*noel*/, const int* /*npt*/, const int* /*layer*/, const int* /*kspt*/,
+                               const int* /*kstep*/, const int* /*kinc*/) {
+    const Call call = prepare_call(HostProgram::standard, cmname, props, *nprops, *ndi, *nshr, *nstatv);
+    if (call.material == nullptr) [[unlikely]]
+        return;
+
+    UmatArguments arguments{stress, statev, ddsdde, sse,   spd,    scd,   rpl,  ddsddt, drplde, drpldt, dstran,
+                            time,   dtime,  temp,   dtemp, predef, dpred, drot, celent, dfgrd1, *nstatv};
+    double stretch[9];
+    if (host_profile(*pnewdt) == HostProfile::calculix) [[unlikely]] {
+        arguments.drot = nullptr;
+        arguments.dfgrd1 = unrotated(dfgrd1, stretch);
+    }
+    CallStatus status;
+    call.material->entry->umat[call.kind](call.material->object, arguments, status);
+    if (status.failure != nullptr) [[unlikely]] {
+        if (status.refusal != nullptr)
+            report_error_and_stop(HostProgram::standard, failure_text(*call.material, status));
+        else
+            ask_for_smaller_increment(*pnewdt, status.time_step_ratio);
+    }
+    if (status.warning != nullptr) [[unlikely]]
+        warn_once(HostProgram::standard, *call.material, status.warning);
+}
+
+// One host can only ask for upper-case symbols.
+extern "C" [[gnu::alias("umat_"), gnu::visibility("default")]] decltype(umat_) UMAT;
