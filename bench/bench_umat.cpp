@@ -117,6 +117,7 @@ void run_vumat(benchmark::State& state, Vumat* vumat, const Material& material, 
             benchmark::ClobberMemory();
         }
         state.counters["ns"] = per_point(count);
+        state.counters["active"] = block.active_share();
         if (const std::string error = take_error(); !error.empty()) state.SkipWithError(error.c_str());
     } catch (const std::runtime_error& problem) {
         state.SkipWithError(problem.what());

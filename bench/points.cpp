@@ -252,6 +252,15 @@ VumatBlock::VumatBlock(Vumat* vumat, const Material& material, Layout layout, in
         if (const std::string error = take_error(); !error.empty()) throw std::runtime_error(error);
     }
 
+    std::size_t active = 0;
+    for (std::size_t p = 0; p < points; ++p)
+        for (std::size_t i = p; i < state_new_.size(); i += points)
+            if (state_new_[i] != state_old_[i]) {
+                ++active;
+                break;
+            }
+    active_share_ = static_cast<double>(active) / static_cast<double>(points);
+
     if (count > count_) {
         const auto repeated = static_cast<std::size_t>(count);
         const Arena small = std::move(arena_);
@@ -313,15 +322,16 @@ void VumatBlock::copy() {
 
 }  // namespace lode::bench
 
-// The host's side of errors: remember the message, and return from XIT so that the refused case can be reported.
+// The host's side of errors: remember the message (not a warning), and return from XIT so that the refused case can be
+// reported.
 extern "C" {
-void stdb_abqerr_(const int*, const char* text, const int*, const double*, const char*, std::size_t length,
+void stdb_abqerr_(const int* severity, const char* text, const int*, const double*, const char*, std::size_t length,
                   std::size_t) {
-    lode::bench::remember(text, length);
+    if (*severity <= -2) lode::bench::remember(text, length);
 }
-void xplb_abqerr_(const int*, const char* text, const int*, const double*, const char*, std::size_t length,
+void xplb_abqerr_(const int* severity, const char* text, const int*, const double*, const char*, std::size_t length,
                   std::size_t) {
-    lode::bench::remember(text, length);
+    if (*severity <= -2) lode::bench::remember(text, length);
 }
 void xit_() {}
 void xplb_exit_() {}

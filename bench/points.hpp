@@ -43,7 +43,6 @@ class UmatPoints {
     // part of all numbers, also of those of the baselines. All points are copied before the first call: a call right
     // after its own copy would measure how the processor forwards those stores to the loads of the callee.
     void run();
-    int count() const { return count_; }
     // Share of points whose state changes in the increment that is measured.
     double active_share() const { return active_share_; }
 
@@ -83,7 +82,7 @@ class VumatBlock {
     VumatBlock(Vumat* vumat, const Material& material, Layout layout, int count, int distinct);
 
     void run();
-    int count() const { return count_; }
+    double active_share() const { return active_share_; }
     // The same traffic without any material: reads strain increment, stress, state, density and energies, writes
     // stress, state and energies.
     void copy();
@@ -97,6 +96,7 @@ class VumatBlock {
     Layout layout_;
     int count_, nstatv_, nprops_;
     std::array<char, 80> cmname_{};
+    double active_share_ = 0;
     Arena arena_;
     std::span<double> coord_, length_, density_, strain_increment_, spin_, temperature_, stretch_old_, stretch_new_,
         defgrad_old_, defgrad_new_, field_, stress_old_, stress_new_, state_old_, state_new_, intern_old_, intern_new_,

@@ -46,7 +46,10 @@ struct DecoupledInterface {
 
         // 2. failure, at the point of the path where it happens
         result.failed = failed_before;
-        const Mask<Real> fails = !failed_before && excess(result.dn, result.dt, result.GI, result.GII) >= zero;
+        Mask<Real> fails = past_end(result.dn, result.dt) >= zero;
+        if (p > 0.0 && any(opens || slides))
+            fails = fails || ((opens || slides) && released_fraction(result.GI, result.GII) >= one);
+        fails = fails && !failed_before;
         if (any(fails)) [[unlikely]] {
             locate_failure(path, dn_old, dt_old, fails, result);
             result.failed = failed_before || fails;
@@ -85,22 +88,25 @@ struct DecoupledInterface {
     }
     template <class Real>
     static Real power(const Real& x, double exponent) {
-        if (exponent == 1.0) return x;
-        return select(x > Real(0.0), pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));
+        if (exponent == 0.0 || exponent == 1.0) return exponent == 0.0 ? Real(1.0) : x;
+        const Mask<Real> positive = x > Real(0.0);
+        if (!any(positive)) return Real(0.0);
+        return select(positive, pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));
     }
 
-    // Not negative once one of the three conditions of failure holds.
+    // Not negative from the end of one law on.
     template <class Real>
-    Real excess(const Real& dn, const Real& dt, const Real& GI, const Real& GII) const {
-        const Real ends =
-            max((dn - normal.end) * (1.0 / normal.end), (dt - shear.end) * (1.0 / shear.end));
-        if (!(p > 0.0)) return ends;
-        const Real x = GI * (1.0 / normal.toughness), y = GII * (1.0 / shear.toughness);
-        return max(ends, power(x, p) + power(y, q) - 1.0);
+    Real past_end(const Real& dn, const Real& dt) const {
+        return max((dn - normal.end) * (1.0 / normal.end), (dt - shear.end) * (1.0 / shear.end));
+    }
+    // (GI/GIc)^p + (GII/GIIc)^q
+    template <class Real>
+    Real released_fraction(const Real& GI, const Real& GII) const {
+        return power(GI * (1.0 / normal.toughness), p) + power(GII * (1.0 / shear.toughness), q);
     }
 
-    // The first s of the path at which `excess` vanishes; it grows with s, since u_n and u_t are convex in s. The state
-    // is frozen there, so that the criterion is met exactly whatever the size of the increment.
+    // The first s of the path at which one of the conditions of failure holds; they grow with s, since u_n and u_t are
+    // convex in s. The state is frozen there, so that the criterion is met exactly whatever the size of the increment.
     template <AnalysisKind kind, class Real>
     void locate_failure(const SeparationPath<kind, Real>& path, const Real& dn_old, const Real& dt_old,
                         const Mask<Real>& fails, InterfaceResult<kind, Real>& result) const {
@@ -110,27 +116,30 @@ struct DecoupledInterface {
             const auto u = path.at(s);
             const Real opening = Path::opening(u), sliding = Path::sliding(u);
             const Real dn = max(dn_old, opening), dt = max(dt_old, sliding);
-            const Real GI = released(normal, dn), GII = released(shear, dt);
-            const Real value = excess(dn, dt, GI, GII);
-
             // d(delta)/ds where it grows
             Real along = u[1] * path.change[1];
             for (int i = 2; i < Path::n; ++i) along = along + u[i] * path.change[i];
             const Real dn_rate = select(opening > dn_old, path.change[0], zero);
-            const Real dt_rate = select(sliding > dt_old, along / max(sliding, Real(shear.elastic_limit)), zero);
-            const Real end_n = (dn - normal.end) * (1.0 / normal.end), end_t = (dt - shear.end) * (1.0 / shear.end);
-            Real slope = select(end_n > end_t, dn_rate * (1.0 / normal.end), dt_rate * (1.0 / shear.end));
+            const Real dt_rate = select(sliding > dt_old, along / max(sliding, dt_old), zero);
+
+            Residual<Real> r;
+            r.value = past_end(dn, dt);
+            r.slope = select((dn - normal.end) * shear.end > (dt - shear.end) * normal.end, dn_rate * (1.0 / normal.end),
+                             dt_rate * (1.0 / shear.end));
             if (p > 0.0) {
+                const Real GI = released(normal, dn), GII = released(shear, dt);
+                const Real criterion = released_fraction(GI, GII) - 1.0;
                 const auto rate = [](const auto& law, const Real& delta, const Real& G, double exponent) {
-                    return exponent * power(G, exponent - 1.0) * law.release_rate(min(delta, Real(law.end))) / law.toughness;
+                    const double scale = 1.0 / law.toughness;
+                    return exponent * scale * power(G * scale, exponent - 1.0) * law.release_rate(min(delta, Real(law.end)));
                 };
-                const Real x = GI * (1.0 / normal.toughness), y = GII * (1.0 / shear.toughness);
-                slope = select(value > max(end_n, end_t),
-                               rate(normal, dn, x, p) * dn_rate + rate(shear, dt, y, q) * dt_rate, slope);
+                r.slope = select(criterion > r.value, rate(normal, dn, GI, p) * dn_rate + rate(shear, dt, GII, q) * dt_rate,
+                                 r.slope);
+                r.value = max(r.value, criterion);
             }
-            return Residual<Real>{value, slope};
+            return r;
         };
-        // A state that was set beyond failure by the host fails at s = 0.
+        // A state that the host has set beyond failure fails at s = 0.
         const Mask<Real> inside = fails && residual(zero).value < zero;
         const Root<Real> root = solve_bracketed<Slope::increasing>(
             residual, zero, Real(1.0), select(inside, Real(1.0), zero), Real(4e-16), inside);

@@ -72,7 +72,8 @@ struct IsoElastic {
           field_expansion(p[4]),
           total_law(p.code(5) != 0),
           out_of_plane(p[6]),
-          ramp_time(p[7]) {}
+          ramp_time(p[7]),
+          has_options(thermal_expansion != 0.0 || field_expansion != 0.0 || out_of_plane != 0.0) {}
 
     int required_state(AnalysisKind) const { return 4; }
 
@@ -82,78 +83,104 @@ struct IsoElastic {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        constexpr int normals = normal_components(kind);
-        constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
-        auto& state = point.state;
-        const Real temperature_increment = increment.temperature_increment();
-        const Real temperature_sum = state[3] + temperature_increment;
-        Real field_increment = Real(0.0);
-        if (field_expansion != 0.0) field_increment = increment.field_increment(1);
-        const Real field_sum = state[4] + field_increment;
-
-        // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
-        Real imposed_old = state[2], imposed = Real(0.0);
-        if (out_of_plane != 0.0 && (is_plane_stress || kind == AnalysisKind::plane_strain))
-            imposed = Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
-
-        Real out_of_plane_strain = state[1];
-        if (kind != AnalysisKind::uniaxial && total_law) {
-            TotalRotation<kind, Real> rotation;
-            if (!rotation.from(increment, point)) return;
-            Strain<kind, Real> strain = rotation.strain;
-            Real residual = Real(0.0);
-            if (thermal_expansion != 0.0 || field_expansion != 0.0)
-                residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
-            add_out_of_plane<kind>(strain, imposed);
-            add_to_normals(strain, normals, Real(0.0) - residual);
-            point.stress = moduli.template stress<kind>(strain);
-            add_imposed_stress<kind>(point.stress, imposed);
-            if constexpr (is_plane_stress) {
-                out_of_plane_strain = lateral_strain(point.stress, imposed) + residual;
-                point.thickness_strain_increment = out_of_plane_strain - state[1];
-            }
-            if constexpr (wants_tangent<T>) rotation.set_tangent(moduli, point.stress, tangent);
-        } else {
-            Strain<kind, Real> strain = increment.strain_increment;
-            Real residual = Real(0.0);
-            if (thermal_expansion != 0.0 || field_expansion != 0.0) {
-                residual = thermal_expansion * temperature_increment + field_expansion * field_increment;
-                add_to_normals(strain, normals, Real(0.0) - residual);
-            }
-            if (out_of_plane != 0.0) add_out_of_plane<kind>(strain, imposed - imposed_old);
-            Stress<kind, Real> change = moduli.template stress<kind>(strain);
-            if (out_of_plane != 0.0) add_imposed_stress<kind>(change, imposed - imposed_old);
-            point.stress = point.stress + change;
-            if constexpr (is_plane_stress) {
-                point.thickness_strain_increment = lateral_strain(change, imposed - imposed_old) + residual;
-                out_of_plane_strain = out_of_plane_strain + point.thickness_strain_increment;
-            }
-            if constexpr (wants_tangent<T>) moduli.template set_stiffness<kind>(tangent);
-        }
-        if constexpr (wants_tangent<T>)
-            if (thermal_expansion != 0.0)
-                for (int i = 0; i < normals; ++i)
-                    tangent.thermal_stress[i] = -thermal_expansion * moduli.template thermal_stiffness<kind>();
-
-        point.elastic_energy = moduli.template energy<kind>(point.stress);
-        if constexpr (is_plane_stress)
-            if (out_of_plane != 0.0)
-                point.elastic_energy =
-                    point.elastic_energy +
-                    (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
-        state.set(1, out_of_plane_strain);
-        state.set(2, imposed);
-        state.set(3, temperature_sum);
-        state.set(4, field_sum);
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        if (kind != AnalysisKind::uniaxial && total_law)
+            return out_of_line(increment, point, tangent,
+                               [this](const auto& i, auto& p, auto& t) { update_total(i, p, t); });
+        if (has_options) return update_incremental<true>(increment, point, tangent);
+        update_incremental<false>(increment, point, tangent);
     }
 
     IsotropicModuli moduli;
     double thermal_expansion, field_expansion;
     bool total_law;
     double out_of_plane, ramp_time;
+    bool has_options;  // expansion or an out-of-plane option
 
   private:
+    static constexpr int EZZ = 1, OOP = 2, DT = 3, DC = 4;  // STATEV
+
+    // KIN = 0: sigma += C (DSTRAN - residual increment), page 10, section 1.6.
+    template <bool options, AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update_incremental(const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                        T& tangent) const {
+        auto& state = point.state;
+        Strain<kind, Real> strain = increment.strain_increment;
+        Real residual = Real(0.0), imposed_change = Real(0.0);
+        const Real temperature_increment = increment.temperature_increment();
+        const Real temperature_sum = state[DT] + temperature_increment;
+        Real out_of_plane_strain = state[EZZ], imposed = state[OOP], field_sum = state[DC];
+        if constexpr (options) {
+            residual = thermal_expansion * temperature_increment;
+            if (field_expansion != 0.0) {
+                const Real field_increment = increment.field_increment(1);
+                residual = residual + field_expansion * field_increment;
+                field_sum = field_sum + field_increment;
+            }
+            add_to_normals(strain, normal_components(kind), -residual);
+            const Real imposed_before = imposed;
+            imposed = imposed_out_of_plane(increment);
+            imposed_change = imposed - imposed_before;
+            add_out_of_plane(strain, imposed_change);
+        }
+        Stress<kind, Real> change = moduli.template stress<kind>(strain);
+        if constexpr (options) add_imposed_stress(change, imposed_change);
+        point.stress = point.stress + change;
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            point.thickness_strain_increment = lateral_strain(change, imposed_change) + residual;
+            out_of_plane_strain = out_of_plane_strain + point.thickness_strain_increment;
+        }
+        if constexpr (wants_tangent<T>) {
+            moduli.template set_stiffness<kind>(tangent);
+            if constexpr (options) set_thermal_stress(tangent);
+        }
+        set_energy(point, imposed);
+        state.set(EZZ, out_of_plane_strain);
+        state.set(OOP, imposed);
+        state.set(DT, temperature_sum);
+        state.set(DC, field_sum);
+    }
+
+    // KIN = 1, 2: sigma = C (V - I - residual strain), section 1.7.
+    template <AnalysisKind kind, class Real, class T>
+    [[gnu::noinline]] void update_total(const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                        T& tangent) const {
+        auto& state = point.state;
+        TotalRotation<kind, Real> rotation;
+        if (!rotation.from(increment, point)) return;
+        const Real temperature_sum = state[DT] + increment.temperature_increment();
+        Real field_sum = state[DC];
+        if (field_expansion != 0.0) field_sum = field_sum + increment.field_increment(1);
+        const Real residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
+        const Real imposed = imposed_out_of_plane(increment);
+        Strain<kind, Real> strain = rotation.strain;
+        add_to_normals(strain, normal_components(kind), -residual);
+        add_out_of_plane(strain, imposed);
+        point.stress = moduli.template stress<kind>(strain);
+        add_imposed_stress(point.stress, imposed);
+        Real out_of_plane_strain = state[EZZ];
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            const Real before = out_of_plane_strain;
+            out_of_plane_strain = lateral_strain(point.stress, imposed) + residual;
+            point.thickness_strain_increment = out_of_plane_strain - before;
+        }
+        if constexpr (wants_tangent<T>) {
+            rotation.set_tangent(moduli, point.stress, tangent);
+            set_thermal_stress(tangent);
+        }
+        set_energy(point, imposed);
+        state.set(EZZ, out_of_plane_strain);
+        state.set(OOP, imposed);
+        state.set(DT, temperature_sum);
+        state.set(DC, field_sum);
+    }
+
+    // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
+    template <AnalysisKind kind, class Real>
+    Real imposed_out_of_plane(const Increment<kind, Real>& increment) const {
+        if (kind != AnalysisKind::plane_stress && kind != AnalysisKind::plane_strain) return Real(0.0);
+        return Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
+    }
     template <AnalysisKind kind, class Real>
     static void add_out_of_plane(Strain<kind, Real>& strain, const Real& imposed) {
         if constexpr (kind == AnalysisKind::plane_strain) strain[2] = strain[2] + imposed;
@@ -168,6 +195,20 @@ struct IsoElastic {
     template <class Real>
     Real lateral_strain(const Stress<AnalysisKind::plane_stress, Real>& s, const Real& imposed) const {
         return (imposed - moduli.poisson * (s[0] + s[1])) * (1.0 / moduli.young);
+    }
+    template <AnalysisKind kind>
+    void set_thermal_stress(Tangent<kind>& tangent) const {
+        for (int i = 0; i < normal_components(kind); ++i)
+            tangent.thermal_stress[i] = -thermal_expansion * moduli.template thermal_stiffness<kind>();
+    }
+    template <AnalysisKind kind, class Real>
+    void set_energy(Point<kind, Real>& point, const Real& imposed) const {
+        point.elastic_energy = moduli.template energy<kind>(point.stress);
+        if constexpr (kind == AnalysisKind::plane_stress)
+            if (out_of_plane != 0.0)
+                point.elastic_energy =
+                    point.elastic_energy +
+                    (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
     }
 };
 

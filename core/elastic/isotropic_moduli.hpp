@@ -8,9 +8,12 @@ namespace lode {
 
 struct IsotropicModuli {
     double young, poisson, shear, bulk, lame;
+    double half_compliance;  // 1/(2E)
 
     static constexpr IsotropicModuli from_young_poisson(double e, double nu) {
-        return {e, nu, e / (2.0 * (1.0 + nu)), e / (3.0 * (1.0 - 2.0 * nu)), e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))};
+        return {
+            e,      nu, e / (2.0 * (1.0 + nu)), e / (3.0 * (1.0 - 2.0 * nu)), e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            0.5 / e};
     }
 
     // Diagonal and off-diagonal normal entries of the stiffness of a kind (plane stress: condensed).
@@ -69,7 +72,7 @@ struct IsotropicModuli {
             squares = squares + out_of_plane * out_of_plane;
             sum = sum + out_of_plane;
         }
-        return (0.5 / young) * ((1.0 + poisson) * squares - poisson * (sum * sum));
+        return half_compliance * ((1.0 + poisson) * squares - poisson * (sum * sum));
     }
 };
 

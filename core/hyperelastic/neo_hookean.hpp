@@ -101,7 +101,7 @@ struct NeoHookean {
         }
 
         // sigma = (G/J) b + U' I (9.59)
-        const VolumeRatio<Real> v(k.j, k.jacobian, k.log_jacobian());
+        const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
         const Real g = shear * v.inverse, mean = dilatation.derivative(v);
         auto stress = g * k.b;
         add_to_normals(stress, 3, mean);
@@ -112,7 +112,7 @@ struct NeoHookean {
         for (int i = normals; i < components(kind); ++i) point.stress[i] = stress[i + 3 - normals];
 
         // I1 - 3 - 2 ln J = (I1 - 3 - 2 j) + 2 (j - ln J)
-        point.elastic_energy = v.inverse * (shear * (0.5 * first_invariant_excess<kind>(k.h) + v.excess_over_logarithm()) +
+        point.elastic_energy = v.inverse * (shear * (0.5 * first_invariant_excess<kind>(k.h) + v.excess_over_log()) +
                                             dilatation.energy(v));
 
         if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);

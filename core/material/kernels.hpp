@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <utility>
 
 #include "lode/material/model_entry.hpp"
 #include "lode/material/point.hpp"
@@ -34,9 +35,9 @@ inline auto finiteness(const V& a) {
     return sum;
 }
 
-// Flattened, so that the point lives in registers and what no caller reads is never computed.
+// A model's update is inlined here, so that the point lives in registers and what no caller reads is never computed.
 template <class Model, AnalysisKind kind>
-[[gnu::flatten]] void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
+void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
     constexpr int n = components(kind);
     const Model& model = *static_cast<const Model*>(material);
 
@@ -95,7 +96,7 @@ constexpr int vumat_columns = kind == AnalysisKind::plane_stress ? 4 : component
 
 // As many points as the batch has lanes, starting at `first`.
 template <class Model, AnalysisKind kind>
-[[gnu::flatten, gnu::always_inline]] inline void vumat_lanes(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
+LODE_INLINE void vumat_lanes(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
     constexpr int n = components(kind), normals = normal_components(kind);
     const std::ptrdiff_t stride = a.stride;
 
@@ -159,63 +160,71 @@ template <class Model, AnalysisKind kind>
         }
 }
 
-// The points that do not fill a batch are copied to lanes of their own, the last one repeated.
-template <class Model, AnalysisKind kind>
-void vumat_remainder(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
-    constexpr int lanes = batch_lanes, columns = vumat_columns<kind>;
-    constexpr int workspace_columns = 512;
-    const int count = a.nblock - first;
-    if (3 * columns + 10 + 2 * a.nstatev + 2 * a.nfieldv + 6 > workspace_columns) {
-        status.failure = "too many state and field variables for a block that does not fill the vector registers";
-        status.failed_point = first + 1;
-        return;
+// Room for the points that do not fill a batch: copied to lanes of their own, the last one repeated.
+class Remainder {
+  public:
+    static constexpr int columns_available = 512;
+    static int columns_needed(const VumatArguments& a, int columns) {
+        return 4 * columns + 2 * a.nstatev + 2 * a.nfieldv + 8;
     }
-    std::array<double, std::size_t{workspace_columns} * lanes> workspace;
-    double* next = workspace.data();
-    const auto pack = [&](const double* source, int number) {
-        double* target = next;
-        next += number * lanes;
+
+    // Nothing is set until it is needed.
+    void pack_from(const VumatArguments& a, int columns, int first, bool stretch) {
+        host_ = &a;
+        first_ = first;
+        next_ = memory_.data();
+        packed_ = a;
+        packed_.nblock = batch_lanes;
+        packed_.stride = batch_lanes;
+        packed_.density = pack(a.density, 1);
+        packed_.temp_old = pack(a.temp_old, 1);
+        packed_.temp_new = pack(a.temp_new, 1);
+        packed_.field_old = pack(a.field_old, a.nfieldv);
+        packed_.field_new = pack(a.field_new, a.nfieldv);
+        if (stretch) packed_.stretch_new = pack(a.stretch_new, columns);
+        packed_.char_length = pack(a.char_length, 1);
+        packed_.strain_increment = pack(a.strain_increment, columns);
+        packed_.stress_old = pack(a.stress_old, columns);
+        packed_.state_old = pack(a.state_old, a.nstatev);
+        packed_.internal_energy_old = pack(a.internal_energy_old, 1);
+        packed_.inelastic_energy_old = pack(a.inelastic_energy_old, 1);
+        packed_.stress_new = reserve(columns);
+        packed_.state_new = pack(a.state_old, a.nstatev);
+        packed_.internal_energy_new = reserve(1);
+        packed_.inelastic_energy_new = reserve(1);
+    }
+    const VumatArguments& packed() const { return packed_; }
+
+    void unpack(int columns, bool thickness) const {
+        give(packed_.stress_new, host_->stress_new, columns);
+        give(packed_.state_new, host_->state_new, host_->nstatev);
+        give(packed_.internal_energy_new, host_->internal_energy_new, 1);
+        give(packed_.inelastic_energy_new, host_->inelastic_energy_new, 1);
+        if (thickness) give(packed_.strain_increment + 2 * batch_lanes, host_->strain_increment + 2 * host_->stride, 1);
+    }
+
+  private:
+    double* reserve(int number) { return std::exchange(next_, next_ + number * batch_lanes); }
+    double* pack(const double* source, int number) {
+        double* target = reserve(number);
+        const int last = host_->nblock - first_ - 1;
         for (int c = 0; c < number; ++c)
-            for (int lane = 0; lane < lanes; ++lane)
-                target[c * lanes + lane] = source[c * a.stride + first + std::min(lane, count - 1)];
+            for (int lane = 0; lane < batch_lanes; ++lane)
+                target[c * batch_lanes + lane] = source[c * host_->stride + first_ + std::min(lane, last)];
         return target;
-    };
-    const auto reserve = [&](int number) { return std::exchange(next, next + number * lanes); };
-    const auto unpack = [&](const double* source, double* target, int number) {
-        for (int c = 0; c < number; ++c)
-            for (int lane = 0; lane < count; ++lane) target[c * a.stride + first + lane] = source[c * lanes + lane];
-    };
-    VumatArguments b = a;
-    b.nblock = lanes;
-    b.stride = lanes;
-    b.density = pack(a.density, 1);
-    b.temp_old = pack(a.temp_old, 1);
-    b.temp_new = pack(a.temp_new, 1);
-    b.field_old = pack(a.field_old, a.nfieldv);
-    b.field_new = pack(a.field_new, a.nfieldv);
-    if constexpr ((Model::description.traits & LODE_FINITE_STRAIN) != 0) b.stretch_new = pack(a.stretch_new, columns);
-    b.char_length = pack(a.char_length, 1);
-    b.strain_increment = pack(a.strain_increment, columns);
-    b.stress_old = pack(a.stress_old, columns);
-    b.state_old = pack(a.state_old, a.nstatev);
-    b.internal_energy_old = pack(a.internal_energy_old, 1);
-    b.inelastic_energy_old = pack(a.inelastic_energy_old, 1);
-    b.stress_new = reserve(columns);
-    b.state_new = pack(a.state_old, a.nstatev);
-    b.internal_energy_new = reserve(1);
-    b.inelastic_energy_new = reserve(1);
-    vumat_lanes<Model, kind>(model, b, 0, status);
-    if (status.failure != nullptr) {
-        status.failed_point += first;
-        return;
     }
-    unpack(b.stress_new, a.stress_new, columns);
-    unpack(b.state_new, a.state_new, a.nstatev);
-    unpack(b.internal_energy_new, a.internal_energy_new, 1);
-    unpack(b.inelastic_energy_new, a.inelastic_energy_new, 1);
-    if constexpr (kind == AnalysisKind::plane_stress)
-        unpack(b.strain_increment + 2 * lanes, a.strain_increment + 2 * a.stride, 1);
-}
+    void give(const double* source, double* target, int number) const {
+        for (int c = 0; c < number; ++c)
+            for (int lane = 0; lane < host_->nblock - first_; ++lane)
+                target[c * host_->stride + first_ + lane] = source[c * batch_lanes + lane];
+    }
+
+    const VumatArguments* host_;
+    VumatArguments packed_;
+    int first_;
+    double* next_;
+    std::array<double, std::size_t{columns_available} * batch_lanes> memory_;
+};
 
 inline void copy_state(const VumatArguments& a, int from_column) {
     if (a.state_new == a.state_old) return;
@@ -224,16 +233,29 @@ inline void copy_state(const VumatArguments& a, int from_column) {
 }
 
 template <class Model, AnalysisKind kind>
-[[gnu::flatten]] void vumat_call(const void* material, const VumatArguments& a, CallStatus& status) {
+void vumat_call(const void* material, const VumatArguments& a, CallStatus& status) {
     const Model& model = *static_cast<const Model*>(material);
     copy_state(a, model.required_state(kind));
-    int first = 0;
-    for (; first + batch_lanes <= a.nblock; first += batch_lanes) {
-        vumat_lanes<Model, kind>(model, a, first, status);
-        if (status.failure != nullptr) [[unlikely]]
+    constexpr int columns = vumat_columns<kind>;
+    constexpr bool reads_stretch = (Model::description.traits & LODE_FINITE_STRAIN) != 0;
+    Remainder remainder;
+    for (int first = 0; first < a.nblock; first += batch_lanes) {
+        const bool fills_a_batch = a.nblock - first >= batch_lanes;
+        if (!fills_a_batch) [[unlikely]] {
+            if (Remainder::columns_needed(a, columns) > Remainder::columns_available) {
+                status.failure = "too many state and field variables for a block that does not fill the registers";
+                status.failed_point = first + 1;
+                return;
+            }
+            remainder.pack_from(a, columns, first, reads_stretch);
+        }
+        vumat_lanes<Model, kind>(model, fills_a_batch ? a : remainder.packed(), fills_a_batch ? first : 0, status);
+        if (status.failure != nullptr) [[unlikely]] {
+            if (!fills_a_batch) status.failed_point += first;
             return;
+        }
+        if (!fills_a_batch) remainder.unpack(columns, kind == AnalysisKind::plane_stress);
     }
-    if (first < a.nblock) vumat_remainder<Model, kind>(model, a, first, status);
 }
 
 // stepTime = totalTime = 0: the host probes with made-up strains. Elastic answer, no history (conventions page).

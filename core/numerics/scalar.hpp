@@ -9,6 +9,9 @@
 #include <type_traits>
 #include <xsimd/xsimd.hpp>
 
+// For what must end up inside its caller, so that a material point lives in registers.
+#define LODE_INLINE [[gnu::always_inline]] inline
+
 namespace lode {
 
 using std::abs, std::cbrt, std::cos, std::exp, std::expm1, std::fma, std::hypot, std::log, std::log1p, std::max,

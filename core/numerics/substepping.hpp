@@ -45,11 +45,10 @@ struct SubsteppedState {
 };
 
 // Modified Euler with an embedded error estimate over pseudo-time 0..1: k1 = rate(s), k2 = rate(s + h k1),
-// s <- s + h (k1 + k2)/2, err = error(h (k2 - k1)/2, new state). A substep is accepted if err <= tolerance;
-// the next is min(0.9 sqrt(tolerance/err), 2) times as long,
-// not longer after a rejection and never less than a tenth. `accept(state)` is called after every accepted substep,
-// e.g. to pull the state back to a yield surface. State and rate need +, - and multiplication by a double from the
-// left. Source: Sloan (1987); page 20, section 6.
+// s <- s + h (k1 + k2)/2, err = error(h (k2 - k1)/2, new state). A substep is accepted if err <= tolerance; the next is
+// min(0.9 sqrt(tolerance/err), 2) times as long, after a rejection not longer, and never less than a tenth.
+// `accept(state)` is called after every accepted substep, e.g. to pull the state back to a yield surface. State and
+// rate need +, - and multiplication by a double from the left. Source: Sloan (1987); page 20, section 6.
 template <class State, class Rate, class Error, class Accept>
 inline SubsteppedState<State> modified_euler(const State& start, const Rate& rate, const Error& error,
                                              const Accept& accept, const SubstepControl& control = {}) {

@@ -35,19 +35,9 @@ struct IsoPlastic {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        Step<kind, Real> step;
-        step.strain = mechanical_strain(increment);
-        step.alpha = point.state[iso_plastic::EQPS];
-        if (hardening.is_softening() && !regularise(increment, point, step)) return;
-        step.yield_stress = hardening.flow_stress(step.scale * step.alpha);
-
-        if constexpr (kind == AnalysisKind::plane_stress) return_in_plane_stress(point, step, tangent);
-        else if constexpr (kind == AnalysisKind::uniaxial) return_in_tension(point, step, tangent);
-        else return_radially(point, step, tangent);
-
-        if constexpr (wants_tangent<T>) set_thermal_tangent(increment, step, tangent);
-        store_state(increment, point, step);
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        hardening.visit([&](const auto& law)
+                            __attribute__((always_inline)) { update_with(law, increment, point, tangent); });
     }
 
     IsotropicModuli elastic;
@@ -70,53 +60,83 @@ struct IsoPlastic {
         Real scale = Real(1.0);     // h/LREF of a softening law
         Mask<Real> yields = Mask<Real>(false);
         Real dalpha = Real(0.0);
-        Vector<Real, plastic_components<kind>> plastic_strain{};  // its increment
+        Vector<Real, plastic_components<kind>> plastic_strain;  // its increment
+
+        Step() {
+            for (Real& x : plastic_strain.v) x = Real(0.0);
+        }
+        // h/LREF times x under a softening law.
+        template <class Law>
+        Real scaled(const Law&, const Real& x) const {
+            return Law::softens ? scale * x : x;
+        }
     };
+
+    template <class Law, AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update_with(const Law& law, const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                 T& tangent) const {
+        Step<kind, Real> step;
+        step.strain = mechanical_strain(increment);
+        step.alpha = point.state[iso_plastic::EQPS];
+        if constexpr (Law::softens)
+            if (!regularise(law, increment, point, step)) return;
+        step.yield_stress = law.flow_stress(step.scaled(law, step.alpha));
+
+        if constexpr (kind == AnalysisKind::plane_stress) return_in_plane_stress(law, point, step, tangent);
+        else if constexpr (kind == AnalysisKind::uniaxial) return_in_tension(law, point, step, tangent);
+        else return_radially(law, point, step, tangent);
+
+        if constexpr (wants_tangent<T>) set_thermal_tangent(law, increment, step, tangent);
+        store_state(law, increment, point, step);
+    }
 
     // Three normal components: the trial deviator shrinks, s = (1 - 3G dalpha/q_trial) s_trial; the pressure is
     // elastic.
-    template <AnalysisKind kind, class Real, class T>
-    void return_radially(Point<kind, Real>& point, Step<kind, Real>& step, T& tangent) const {
+    template <class Law, AnalysisKind kind, class Real, class T>
+    LODE_INLINE void return_radially(const Law& law, Point<kind, Real>& point, Step<kind, Real>& step,
+                                     T& tangent) const {
         constexpr int n = components(kind);
         const double G = elastic.shear, K = elastic.bulk;
         const Real mean = (1.0 / 3.0) * trace(point.stress) + K * trace(step.strain);
         const Stress<kind, Real> s_trial = deviator(point.stress) + Real(2.0 * G) * deviator(step.strain);
-        const Real s_squared = double_contraction(s_trial, s_trial);
-        const Real q_trial = sqrt(1.5 * s_squared);
+        const Real q_trial = sqrt(1.5 * double_contraction(s_trial, s_trial));
 
-        Real theta = Real(1.0);
+        Real theta = Real(1.0), inverse_q = Real(0.0);
         step.yields = exceeds(q_trial, step.yield_stress);
         if (any(step.yields)) {
+            inverse_q = 1.0 / select(step.yields, q_trial, Real(1.0));
             step.dalpha =
-                hardening.return_to_yield(q_trial, 3.0 * G, step.alpha, step.scale, step.yield_stress, step.yields);
-            const Real ratio = step.dalpha / select(step.yields, q_trial, Real(1.0));
+                return_to_yield(law, q_trial, 3.0 * G, step.alpha, step.scale, step.yield_stress, step.yields);
+            const Real ratio = step.dalpha * inverse_q;
             theta = 1.0 - (3.0 * G) * ratio;
             for (int i = 0; i < n; ++i) step.plastic_strain[i] = (i < 3 ? 1.5 : 3.0) * ratio * s_trial[i];
         }
         for (int i = 0; i < n; ++i) point.stress[i] = i < 3 ? theta * s_trial[i] + mean : theta * s_trial[i];
-        point.elastic_energy = (0.25 / G) * (theta * theta * s_squared) + (0.5 / K) * (mean * mean);
+        const Real q = theta * q_trial;
+        // q^2/(6G) + mean^2/(2K)
+        point.elastic_energy = elastic.half_compliance * ((2.0 / 3.0) * (1.0 + elastic.poisson) * (q * q) +
+                                                          3.0 * (1.0 - 2.0 * elastic.poisson) * (mean * mean));
 
         if constexpr (wants_tangent<T>) {
             if (!step.yields) return elastic.set_stiffness<kind>(tangent);
-            // D = K 1x1 + 2G theta I_dev - 2G theta_bar n x n, n = s_trial/|s_trial|
-            const double H = hardening_modulus(step);
-            const double theta_bar = 3.0 * G / (3.0 * G + H) - (1.0 - theta);
-            const double along_flow = 2.0 * G * theta_bar / s_squared;
+            // D = K 1x1 + 2G theta I_dev - 2G theta_bar n x n, n = s_trial/|s_trial| = sqrt(3/2) s_trial/q_trial
+            const double ratio_3G = 3.0 * G / (3.0 * G + hardening_modulus(law, step));
+            const double theta_bar = ratio_3G - (1.0 - theta);
+            const double along_flow = 3.0 * G * theta_bar * inverse_q * inverse_q;
             const double coupling = K - (2.0 / 3.0) * G * theta;
             for (int j = 0; j < n; ++j) {
                 const double column = along_flow * s_trial[j];
                 for (int i = 0; i < n; ++i) tangent(i, j) = (i < 3 && j < 3 ? coupling : 0.0) - column * s_trial[i];
                 tangent(j, j) += (j < 3 ? 2.0 : 1.0) * G * theta;
             }
-            const double flow_rate = 3.0 * G / ((3.0 * G + H) * q_trial);
-            for (int i = 0; i < n; ++i) tangent.heat_rate_strain[i] = flow_rate * s_trial[i];
+            for (int i = 0; i < n; ++i) tangent.heat_rate_strain[i] = ratio_3G * inverse_q * s_trial[i];
         }
     }
 
     // sigma33 = 0. The multiplier mu (dep = mu s) is replaced by t = 1/(1 + A mu), which stays in [0, 1].
-    template <class Real, class T>
-    void return_in_plane_stress(Point<AnalysisKind::plane_stress, Real>& point,
-                                Step<AnalysisKind::plane_stress, Real>& step, T& tangent) const {
+    template <class Law, class Real, class T>
+    LODE_INLINE void return_in_plane_stress(const Law& law, Point<AnalysisKind::plane_stress, Real>& point,
+                                            Step<AnalysisKind::plane_stress, Real>& step, T& tangent) const {
         const double G = elastic.shear, nu = elastic.poisson;
         const double A = elastic.young / (3.0 * (1.0 - nu)), rho = 2.0 * G / A;
         const Real start_sum = trace(point.stress);
@@ -135,12 +155,12 @@ struct IsoPlastic {
                 const Real Q_slope = (rho - 1.0) * shear / (b_x * b_x * b_x * Q);
                 const Real dalpha = (2.0 / 3.0 / A) * (1.0 - x) * Q;
                 const Real dalpha_slope = (2.0 / 3.0 / A) * ((1.0 - x) * Q_slope - Q);
-                const Real scaled = step.scale * (step.alpha + dalpha);
-                return Residual<Real>{x * Q - hardening.flow_stress(scaled),
-                                      Q + x * Q_slope - step.scale * hardening.slope(scaled) * dalpha_slope};
+                const Real total = step.scaled(law, step.alpha + dalpha);
+                return Residual<Real>{x * Q - law.flow_stress(total),
+                                      Q + x * Q_slope - step.scaled(law, law.slope(total)) * dalpha_slope};
             };
             const Real start = select(step.yields, step.yield_stress / q_trial, Real(1.0));
-            const Real tolerance = HardeningLaw::relative_tolerance * q_trial;
+            const Real tolerance = yield_tolerance * q_trial;
             t = solve_bracketed<Slope::increasing>(residual, Real(0.0), Real(1.0), start, tolerance, step.yields).x;
             b = t + rho * (1.0 - t);
             step.dalpha = (2.0 / 3.0 / A) * (1.0 - t) * sqrt(sum + shear / (b * b));
@@ -162,7 +182,7 @@ struct IsoPlastic {
         if constexpr (wants_tangent<T>) {
             if (!step.yields) return elastic.set_stiffness<AnalysisKind::plane_stress>(tangent);
             // D = Xi - c N x N/(c P sigma : N + (2/3) q^2 H), Xi = (C^-1 + mu P)^-1, N = Xi P sigma
-            const double H = hardening_modulus(step);
+            const double H = hardening_modulus(law, step);
             const double mu = (1.0 - t) / (A * max(t, 1e-300));
             const double xi_sum = t * elastic.young / (1.0 - nu), xi_difference = 2.0 * G * t / b;
             const double xi_normal = 0.5 * (xi_sum + xi_difference), xi_coupling = 0.5 * (xi_sum - xi_difference);
@@ -191,16 +211,15 @@ struct IsoPlastic {
         }
     }
 
-    template <class Real, class T>
-    void return_in_tension(Point<AnalysisKind::uniaxial, Real>& point, Step<AnalysisKind::uniaxial, Real>& step,
-                           T& tangent) const {
+    template <class Law, class Real, class T>
+    LODE_INLINE void return_in_tension(const Law& law, Point<AnalysisKind::uniaxial, Real>& point,
+                                       Step<AnalysisKind::uniaxial, Real>& step, T& tangent) const {
         const double E = elastic.young;
         const Real trial = point.stress[0] + E * step.strain[0];
         const Real sign = select(trial < Real(0.0), Real(-1.0), Real(1.0));
         step.yields = exceeds(abs(trial), step.yield_stress);
         if (any(step.yields)) {
-            step.dalpha =
-                hardening.return_to_yield(abs(trial), E, step.alpha, step.scale, step.yield_stress, step.yields);
+            step.dalpha = return_to_yield(law, abs(trial), E, step.alpha, step.scale, step.yield_stress, step.yields);
             step.plastic_strain[0] = sign * step.dalpha;
             step.plastic_strain[1] = step.plastic_strain[2] = -0.5 * step.plastic_strain[0];
         }
@@ -209,7 +228,7 @@ struct IsoPlastic {
 
         if constexpr (wants_tangent<T>) {
             if (!step.yields) return elastic.set_stiffness<AnalysisKind::uniaxial>(tangent);
-            const double H = hardening_modulus(step);
+            const double H = hardening_modulus(law, step);
             tangent(0, 0) = E * H / (E + H);
             tangent.heat_rate_strain[0] = sign * E / (E + H);
         }
@@ -218,13 +237,13 @@ struct IsoPlastic {
     // q <= K with the relative tolerance of section 1.
     template <class Real>
     static Mask<Real> exceeds(const Real& q_trial, const Real& yield_stress) {
-        return q_trial - yield_stress > HardeningLaw::relative_tolerance * max(q_trial, yield_stress);
+        return q_trial - yield_stress > yield_tolerance * max(q_trial, yield_stress);
     }
 
     // dK/dalpha at the end.
-    template <AnalysisKind kind>
-    double hardening_modulus(const Step<kind, double>& step) const {
-        return step.scale * hardening.slope(step.scale * (step.alpha + step.dalpha));
+    template <class Law, AnalysisKind kind>
+    static double hardening_modulus(const Law& law, const Step<kind, double>& step) {
+        return step.scaled(law, law.slope(step.scaled(law, step.alpha + step.dalpha)));
     }
 
     template <AnalysisKind kind, class Real>
@@ -239,8 +258,9 @@ struct IsoPlastic {
 
     // Softening dissipates the energy of an element of size LREF whatever the element size h, as long as the law is not
     // steeper than the elastic unloading of the point.
-    template <AnalysisKind kind, class Real>
-    bool regularise(const Increment<kind, Real>& increment, Point<kind, Real>& point, Step<kind, Real>& step) const {
+    template <class Law, AnalysisKind kind, class Real>
+    bool regularise(const Law& law, const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                    Step<kind, Real>& step) const {
         const Real h = increment.element_length();
         const auto unknown = !(h > Real(0.0)) || !is_finite(h);
         if (any(unknown)) {
@@ -251,7 +271,7 @@ struct IsoPlastic {
         const double unloading = is_plane                         ? elastic.young / (2.0 * (1.0 - elastic.poisson))
                                  : kind == AnalysisKind::uniaxial ? elastic.young
                                                                   : 3.0 * elastic.shear;
-        const double h_max = unloading * reference_length / -hardening.steepest_slope();
+        const double h_max = unloading * reference_length / -law.steepest_slope();
         const auto too_large = h >= Real(h_max);
         if (any(too_large)) {
             point.refuse(too_large, "element size h exceeds h_max: h", h, "<", Real(h_max));
@@ -263,16 +283,14 @@ struct IsoPlastic {
 
     // heat_rate_strain holds d(dalpha)/d(strain) on entry. The flow stress of these laws does not depend on
     // temperature, which acts through the thermal strain alone.
-    template <AnalysisKind kind>
-    void set_thermal_tangent(const Increment<kind, double>& increment, const Step<kind, double>& step,
-                             Tangent<kind>& tangent) const {
+    template <class Law, AnalysisKind kind>
+    LODE_INLINE void set_thermal_tangent(const Law& law, const Increment<kind, double>& increment,
+                                         const Step<kind, double>& step, Tangent<kind>& tangent) const {
         if (step.yields) {
-            const double heat_slope =
-                increment.time_increment > 0.0 ? heat_per_plastic_strain(step) / increment.time_increment : 0.0;
+            const double rate = increment.time_increment > 0.0 ? 1.0 / increment.time_increment : 0.0;
+            const double heat_slope = heat_per_plastic_strain(law, step) * rate;
             for (int i = 0; i < components(kind); ++i) tangent.heat_rate_strain[i] *= heat_slope;
-            tangent.heat_rate = increment.time_increment > 0.0
-                                    ? plastic_heat(step, plastic_work(step)) / increment.time_increment
-                                    : 0.0;
+            tangent.heat_rate = plastic_heat(step, plastic_work(law, step)) * rate;
         }
         if (thermal_expansion == 0.0) return;
         for (int j = 0; j < normal_components(kind); ++j) {
@@ -282,11 +300,16 @@ struct IsoPlastic {
     }
 
     // Plastic work of the increment: the exact integral of K dalpha.
-    template <AnalysisKind kind, class Real>
-    Real plastic_work(const Step<kind, Real>& step) const {
-        const Real x = step.scale * step.alpha, dx = step.scale * step.dalpha;
-        return hardening.initial_yield() * step.dalpha +
-               (hardening.stored_energy(x + dx) - hardening.stored_energy(x)) / step.scale;
+    template <class Law, AnalysisKind kind, class Real>
+    Real plastic_work(const Law& law, const Step<kind, Real>& step) const {
+        if constexpr (std::is_same_v<Law, LinearHardening>) {
+            return step.dalpha * (step.yield_stress + 0.5 * law.modulus * step.dalpha);
+        } else {
+            const Real start = step.scaled(law, step.alpha), end = step.scaled(law, step.alpha + step.dalpha);
+            Real stored = law.stored_energy(end) - law.stored_energy(start);
+            if constexpr (Law::softens) stored = stored / step.scale;
+            return hardening.initial_yield() * step.dalpha + stored;
+        }
     }
     // Its part that becomes heat (page 25, section 3), and the derivative of that part by dalpha.
     template <AnalysisKind kind, class Real>
@@ -294,26 +317,26 @@ struct IsoPlastic {
         if (heat_fraction == 0.0) return hardening.initial_yield() * step.dalpha;
         return heat_fraction < 0.0 ? Real(0.0) : heat_fraction * work;
     }
-    template <AnalysisKind kind>
-    double heat_per_plastic_strain(const Step<kind, double>& step) const {
+    template <class Law, AnalysisKind kind>
+    double heat_per_plastic_strain(const Law& law, const Step<kind, double>& step) const {
         if (heat_fraction == 0.0) return hardening.initial_yield();
-        return heat_fraction < 0.0 ? 0.0
-                                   : heat_fraction * hardening.flow_stress(step.scale * (step.alpha + step.dalpha));
+        if (heat_fraction < 0.0) return 0.0;
+        return heat_fraction * law.flow_stress(step.scaled(law, step.alpha + step.dalpha));
     }
 
-    template <AnalysisKind kind, class Real>
-    void store_state(const Increment<kind, Real>& increment, Point<kind, Real>& point,
-                     const Step<kind, Real>& step) const {
+    template <class Law, AnalysisKind kind, class Real>
+    LODE_INLINE void store_state(const Law& law, const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                 const Step<kind, Real>& step) const {
         auto& state = point.state;
         const double dt = increment.time_increment;
         const Real alpha = step.alpha + step.dalpha;
         if (thermal_expansion != 0.0 || moisture_expansion != 0.0) add_free_strain(increment, point);
-        point.plastic_dissipation = plastic_work(step);
+        point.plastic_dissipation = plastic_work(law, step);
         if (state.has(iso_plastic::ENTR)) store_heat(increment, point, step);
         if (state.has(iso_plastic::EP + 5)) store_plastic_strain(increment, point, step);
         state.set(iso_plastic::EQPS, alpha);
         state.set(iso_plastic::RATE, dt > 0.0 ? step.dalpha * (1.0 / dt) : Real(0.0));
-        state.set(iso_plastic::FLOW, hardening.flow_stress(step.scale * alpha));
+        state.set(iso_plastic::FLOW, law.flow_stress(step.scaled(law, alpha)));
         state.set(iso_plastic::YT, Real(0.0));
     }
 

@@ -74,49 +74,22 @@ struct CamClay {
         Mask<Real> clipped = Mask<Real>(false);
         if (!guard(increment, start, dv, de, clipped, point)) return;
 
-        CamClaySensitivity<kind, wants_tangent<T>> sensitivity;
-        const CamClayPath<kind, Real> end = substeps.integrate(start, dv, de, sensitivity);
-        const CamClayStep<Real>& last = end.last;
-
-        Real pore_stress = Real(0.0);
-        if (biot != 0.0) pore_stress = biot * increment.field_end(1);
-        const Mask<Real> bad = !is_finite(Real(last.p + last.q + end.pc + pore_stress));
-        if (any(bad)) [[unlikely]] {
-            point.fail(bad, "CAM_CLAY: the stress is not finite");
-            return;
+        if (substeps.is_single_step()) {
+            const CamClayPath<kind, Real> end = substeps.single_step(start, dv, de);
+            if (!accept(increment, end, clipped, point)) return;
+            if constexpr (wants_tangent<T>) {
+                substeps.set_tangent(end.last, plasticity.linearised(end.last), end.e, tangent);
+                complete_tangent(end.last, tangent);
+            }
+        } else {
+            CamClaySensitivity<kind, wants_tangent<T>> sensitivity;
+            const CamClayPath<kind, Real> end = substeps.several_steps(start, dv, de, sensitivity);
+            if (!accept(increment, end, clipped, point)) return;
+            if constexpr (wants_tangent<T>) {
+                substeps.set_tangent(end.last, sensitivity, end.e, tangent);
+                complete_tangent(end.last, tangent);
+            }
         }
-
-        point.stress = (2.0 * last.mu) * end.e;
-        add_to_normals(point.stress, 3, Real(-last.p - pore_stress));
-        point.elastic_energy = elasticity.energy(last.A, last.s);
-        point.plastic_dissipation = end.dissipation;
-        if (elasticity.alpha > 0.0 && any(elasticity.convexity(last.A, last.s) <= Real(0.0)))
-            point.warn("CAM_CLAY: the elastic law has lost convexity, q/p is too high for alpha and mu0 (zone + 10)");
-        if constexpr (wants_tangent<T>) {
-            if (sensitivity.carried) substeps.set_tangent(last, sensitivity, end.e, tangent);
-            else substeps.set_tangent(last, plasticity.linearised(last), end.e, tangent);
-            if (thermal_expansion != 0.0)  // DDSDDT = -alphaT C 1
-                for (int i = 0; i < components(kind); ++i)
-                    tangent.thermal_stress[i] = -thermal_expansion * (tangent(i, 0) + tangent(i, 1) + tangent(i, 2));
-            if (last.A < 1e-10 * elasticity.p_ref)  // keeps the host's matrix regular
-                for (int i = 0; i < 3; ++i)
-                    for (int j = 0; j < 3; ++j) tangent(i, j) += 1e-10 * elasticity.p_ref * elasticity.inverse_kappa;
-        }
-
-        const Real epv = state[cam_clay::EPV] - end.compaction, esp = state[cam_clay::ESP] + end.plastic_shear;
-        state.set(cam_clay::INIT, Real(1.0));
-        state.set(cam_clay::PC, end.pc);
-        for (int i = 0; i < 6; ++i) {
-            Real component = Real(0.0);
-            if (i < components(kind)) component = end.e[i];
-            if (i < 3) component = component - end.v * (1.0 / 3.0);
-            state.set(cam_clay::EE + i, component);
-        }
-        state.set(cam_clay::EPV, epv);
-        state.set(cam_clay::ESP, esp);
-        state.set(cam_clay::P, last.p);
-        state.set(cam_clay::Q, last.q);
-        state.set(cam_clay::ZONE, end.zone + select(clipped, Real(10.0), Real(0.0)));
     }
 
     CamClayElasticity elasticity;
@@ -135,6 +108,54 @@ struct CamClay {
         Stress<kind, Real> e;
         for (int i = 0; i < components(kind); ++i) e[i] = state[cam_clay::EE + i];
         return e;
+    }
+
+    // Stress, energies and state at the end; false where the stress is not finite.
+    template <AnalysisKind kind, class Real>
+    bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end, const Mask<Real>& clipped,
+                Point<kind, Real>& point) const {
+        const CamClayStep<Real>& last = end.last;
+        Real pore_stress = Real(0.0);
+        if (biot != 0.0) pore_stress = biot * increment.field_end(1);
+        const Mask<Real> bad = !is_finite(Real(last.p + last.q + end.pc + pore_stress));
+        if (any(bad)) [[unlikely]] {
+            point.fail(bad, "CAM_CLAY: the stress is not finite");
+            return false;
+        }
+        point.stress = (2.0 * last.mu) * end.e;
+        add_to_normals(point.stress, 3, Real(-last.p - pore_stress));
+        point.elastic_energy = elasticity.energy(last.A, last.s);
+        point.plastic_dissipation = end.dissipation;
+        if (elasticity.alpha > 0.0 && any(elasticity.convexity(last.A, last.s) <= Real(0.0))) [[unlikely]]
+            point.warn("CAM_CLAY: the elastic law has lost convexity, q/p is too high for alpha and mu0 (zone + 10)");
+
+        State<Real>& state = point.state;
+        const Real epv = state[cam_clay::EPV] - end.compaction, esp = state[cam_clay::ESP] + end.plastic_shear;
+        state.set(cam_clay::INIT, Real(1.0));
+        state.set(cam_clay::PC, end.pc);
+        for (int i = 0; i < 6; ++i) {
+            Real component = Real(0.0);
+            if (i < components(kind)) component = end.e[i];
+            if (i < 3) component = component - end.v * (1.0 / 3.0);
+            state.set(cam_clay::EE + i, component);
+        }
+        state.set(cam_clay::EPV, epv);
+        state.set(cam_clay::ESP, esp);
+        state.set(cam_clay::P, last.p);
+        state.set(cam_clay::Q, last.q);
+        state.set(cam_clay::ZONE, end.zone + select(clipped, Real(10.0), Real(0.0)));
+        return true;
+    }
+
+    // DDSDDT = -alphaT C 1, and the floor that keeps the host's matrix regular where p has all but vanished.
+    template <AnalysisKind kind>
+    void complete_tangent(const CamClayStep<double>& last, Tangent<kind>& c) const {
+        if (thermal_expansion != 0.0)
+            for (int i = 0; i < components(kind); ++i)
+                c.thermal_stress[i] = -thermal_expansion * (c(i, 0) + c(i, 1) + c(i, 2));
+        if (last.A < 1e-10 * elasticity.p_ref) [[unlikely]]
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) c(i, j) += 1e-10 * elasticity.p_ref * elasticity.inverse_kappa;
     }
 
     // "Guards": UMAT asks for a smaller increment, VUMAT clips it. False where the increment cannot be done.
@@ -164,8 +185,7 @@ struct CamClay {
         }
         const Real v_trial = start.v + dv;
         const Real v_max = (v_trial * plasticity.inverse_theta + start.log_pc) * plasticity.inverse_w;
-        const Mask<Real> beyond =
-            !(abs(min(v_trial, v_max)) <= Real(largest_exponent * elasticity.kappa));
+        const Mask<Real> beyond = !(abs(min(v_trial, v_max)) <= Real(largest_exponent * elasticity.kappa));
         if (any(beyond)) [[unlikely]] {
             point.fail(beyond, "CAM_CLAY: the elastic strain in STATEV is not finite or leaves the range of doubles");
             return false;

@@ -33,6 +33,7 @@ struct CamClayReturn {
     double half_delta;       // w delta = ln 2: critical state for alpha = 0; h > 0 wherever delta is less
     double flow_factor;      // 6/M^2
     double inverse_M_square;
+    double strain_per_stress;  // alpha = 0: s = strain_per_stress * A sqrt(r) on the curve
 
     CamClayReturn(const CamClayElasticity& elastic, double lambda, double slope)
         : elasticity(elastic),
@@ -43,7 +44,8 @@ struct CamClayReturn {
           inverse_w(1.0 / w),
           half_delta(0.69314718055994530942 / w),
           flow_factor(6.0 / (slope * slope)),
-          inverse_M_square(1.0 / (slope * slope)) {}
+          inverse_M_square(1.0 / (slope * slope)),
+          strain_per_stress(slope / (3.0 * elastic.mu0)) {}
 
     // `over` = v_tr - v_max in a form without cancellation (step 2).
     template <class Real>
@@ -74,7 +76,8 @@ struct CamClayReturn {
         end.dgamma = zero;
         end.shear_ratio = Real(1.0);
         end.h = zero;
-        const Real p_relative = end.p / pc, q_relative = end.q / pc;
+        const Real inverse_pc = 1.0 / pc;
+        const Real p_relative = end.p * inverse_pc, q_relative = end.q * inverse_pc;
         end.plastic = !(q_relative * q_relative * inverse_M_square + p_relative * (p_relative - 1.0) <= Real(1e-10));
         if (!any(end.plastic)) return end;
 
@@ -83,7 +86,8 @@ struct CamClayReturn {
         const Mask<Real> sheared = end.plastic && !isotropic;
         Real delta = zero, s = zero, A = A_top, r = zero;
         if (any(sheared)) {
-            const Point<Real> at = solve(v_max, over, select(isotropic, Real(1.0), s_trial), pc, A_top, sheared);
+            const Real r_top = select(over < zero, pc / A_top - 1.0, zero);
+            const CurvePoint<Real> at = solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared);
             delta = select(sheared, at.zeta * at.zeta, zero);
             s = select(sheared, at.s, zero);
             A = select(sheared, at.A, A);
@@ -92,11 +96,10 @@ struct CamClayReturn {
         const Real mu = elasticity.shear_modulus(A);
         const Real p = elasticity.pressure(A, s), pc_new = A * (1.0 + r), h = 2.0 * p - pc_new;
         const Real compaction = over + delta;
-        // Step 8: at the critical state the first form is 0/0.
-        const Mask<Real> far = isotropic || abs(h) > 0.5 * pc_new;
-        const Real shear_form = (s_trial - s) / ((flow_factor * mu) * select(far, Real(1.0), s));
-        const Real dgamma = positive_part(select(far, compaction / select(far, h, Real(1.0)), shear_form));
-        const Real tip_ratio = 1.0 / (1.0 + flow_factor * mu * dgamma);
+        // Step 8: at the critical state compaction/h is 0/0.
+        const Mask<Real> by_volume = isotropic || abs(h) > 0.5 * pc_new;
+        const Real dgamma = positive_part(select(by_volume, compaction, s_trial - s) /
+                                          select(by_volume, h, flow_factor * mu * s));
 
         end.v = select(end.plastic, v_max - delta, end.v);
         end.s = select(end.plastic, s, end.s);
@@ -109,7 +112,9 @@ struct CamClayReturn {
         end.plastic_compaction = select(end.plastic, compaction, zero);
         end.dgamma = select(end.plastic, dgamma, zero);
         end.h = select(end.plastic, h, zero);
-        const Real ratio = select(isotropic, tip_ratio, s / select(isotropic, Real(1.0), s_trial));
+        // s/s_tr, on the axis its limit
+        const Real ratio = select(isotropic, Real(1.0), s) /
+                           select(isotropic, 1.0 + flow_factor * mu * dgamma, s_trial);
         end.shear_ratio = select(end.plastic, ratio, end.shear_ratio);
         return end;
     }
@@ -145,99 +150,130 @@ struct CamClayReturn {
     }
 
   private:
-    // A point of the curve f = 0, and R there with its slope in zeta = sqrt(delta) (steps 5 to 7).
+    static constexpr int most_newton_steps = 10;
+    static constexpr double largest_r = 1e120;
+
+    // A point of the curve f = 0, R there, and their slopes in zeta = sqrt(delta) (steps 5 to 7).
     template <class Real>
-    struct Point {
+    struct CurvePoint {
         Real zeta, A, r, s, h, residual, slope;
+        Real A_slope, r_slope, s_slope;
+
+        // A point nearby, to first order.
+        CurvePoint moved_to(const Real& target) const {
+            CurvePoint x = *this;
+            const Real step = target - zeta;
+            x.zeta = target;
+            x.A = A + A_slope * step;
+            x.r = r + r_slope * step;
+            x.s = s + s_slope * step;
+            return x;
+        }
+        void assign(const Mask<Real>& where, const CurvePoint& x) {
+            if (!any(where)) return;
+            zeta = select(where, x.zeta, zeta);
+            A = select(where, x.A, A);
+            r = select(where, x.r, r);
+            s = select(where, x.s, s);
+        }
     };
 
-    // With a = M A/(3 mu) and j = c a^2 (the page's 1/k) the positive root of f = 0 for given v is z = j r g,
-    // g = 2/(B + E), and s = a sqrt(r g): free of overflow, and the curve of alpha = 0 is j = 0.
+    // With a = M A/(3 mu) and j = c a^2 (the page's 1/k) the positive root of f = 0 for given v is z = j rg with
+    // rg = 2r/(B + E), and s = a sqrt(rg): free of overflow, and alpha = 0 is j = 0, rg = r.
     template <class Real>
-    Point<Real> point_at(const Real& A, const Real& r, const Real& zeta, const Real& compaction,
-                         const Real& s_trial) const {
-        const double kappa_rate = elasticity.inverse_kappa;
+    CurvePoint<Real> curve_point(const Real& A, const Real& r, const Real& zeta, const Real& compaction,
+                                 const Real& s_trial) const {
+        const double inverse_kappa = elasticity.inverse_kappa, alpha = elasticity.alpha;
         const Real mu = elasticity.shear_modulus(A);
-        const Real inverse_mu = 1.0 / mu;
-        const Real a = (M / 3.0) * A * inverse_mu;
-        const Real j = elasticity.c * a * a;
-        const Real B = 1.0 + j * (1.0 - r);
-        const Real four_rjj = 4.0 * r * j * j;
-        const Real E = max(abs(B), sqrt(min(B * B + four_rjj, Real(1e300))));
-        Real sum = B + E;
-        const Mask<Real> cancels = B < Real(0.0);
-        if (any(cancels)) sum = select(cancels, four_rjj / select(cancels, E - B, Real(1.0)), sum);
-        const Real rg = 2.0 * r / sum;
-        const Real z = j * rg;
-
-        Point<Real> at;
+        const Real twice_zeta = 2.0 * zeta, pc_ratio = 1.0 + r;
+        CurvePoint<Real> at;
         at.zeta = zeta;
         at.A = A;
         at.r = r;
-        at.s = a * sqrt(rg);
-        at.h = A * (1.0 + 2.0 * z - r);
-        // d ln(s^2)/d delta = d ln z/d delta
-        const Real rate = ((1.0 + z) * (w * (1.0 + r)) / rg - (2.0 * elasticity.mu0 * kappa_rate) * inverse_mu) / E;
-        const Real s_slope = at.s * rate * zeta;
-        const Real h_rate = A * (2.0 * z * rate - (2.0 * kappa_rate) * (1.0 + z) - inverse_theta * (1.0 + r));
-        const Real mu_rate = (-elasticity.alpha * kappa_rate) * A;
+        at.A_slope = -inverse_kappa * (twice_zeta * A);
+        at.r_slope = w * (twice_zeta * pc_ratio);
+        Real h_rate;  // dh/d delta
+        if (alpha == 0.0) {
+            at.s = strain_per_stress * A * sqrt(r);
+            at.s_slope = at.s * (0.5 * at.r_slope / r - inverse_kappa * twice_zeta);
+            at.h = A * (1.0 - r);
+            h_rate = -A * (2.0 * inverse_kappa + inverse_theta * pc_ratio);
+        } else {
+            const Real inverse_mu = 1.0 / mu;
+            const Real a = (M / 3.0) * A * inverse_mu;
+            const Real j = elasticity.c * a * a, four_rjj = 4.0 * r * j * j;
+            const Real B = 1.0 + j * (1.0 - r);
+            const Real E = sqrt(B * B + four_rjj);
+            Real sum = B + E;
+            const Mask<Real> cancels = B < Real(0.0);
+            if (any(cancels)) sum = select(cancels, four_rjj / select(cancels, E - B, Real(1.0)), sum);
+            const Real rg = 2.0 * r / sum, z = j * rg;
+            at.s = a * sqrt(rg);
+            at.h = A * (1.0 + 2.0 * z - r);
+            // d ln z/d delta = d ln(s^2)/d delta
+            const Real mu0_share = (4.0 * elasticity.mu0 * inverse_kappa) * inverse_mu;
+            const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) / (2.0 * r * E);
+            at.s_slope = at.s * rate * zeta;
+            h_rate = A * (2.0 * z * rate - (2.0 * inverse_kappa) * (1.0 + z) - inverse_theta * pc_ratio);
+        }
         const Real missing = s_trial - at.s;
         at.residual = flow_factor * mu * at.s * compaction - missing * at.h;
-        at.slope = flow_factor * (compaction * (2.0 * zeta * mu_rate * at.s + mu * s_slope) + 2.0 * zeta * mu * at.s) +
-                   at.h * s_slope - 2.0 * zeta * missing * h_rate;
+        at.slope = flow_factor * (compaction * (alpha * at.A_slope * at.s + mu * at.s_slope) + twice_zeta * mu * at.s) +
+                   at.h * at.s_slope - twice_zeta * missing * h_rate;
         return at;
     }
+    // Roots have r far below the limit; beyond it only the signs matter.
     template <class Real>
-    Point<Real> point(const Real& zeta, const Real& v_max, const Real& over, const Real& s_trial) const {
+    CurvePoint<Real> curve_point(const Real& zeta, const Real& v_max, const Real& over, const Real& s_trial) const {
         const Real delta = zeta * zeta;
-        return point_at<Real>(elasticity.volumetric_pressure(Real(v_max - delta)), expm1(Real(w * delta)), zeta,
-                              over + delta, s_trial);
+        return curve_point<Real>(elasticity.volumetric_pressure(Real(v_max - delta)),
+                                 min(expm1(Real(w * delta)), Real(largest_r)), zeta, over + delta, s_trial);
     }
 
-    // The solution of R = 0 in the `active` lanes. Newton's method from the point of the curve at the
-    // trial volume; the few lanes in which it does not find an admissible root get the bracketed solution.
+    // The solution of R = 0 in the `active` lanes: Newton's method from the point of the curve at the trial volume,
+    // where A and r are those of the start; lanes in which it finds no admissible root get the bracketed solution.
     template <class Real>
-    Point<Real> solve(const Real& v_max, const Real& over, const Real& s_trial, const Real& pc, const Real& A_top,
-                      const Mask<Real>& active) const {
+    CurvePoint<Real> solve(const Real& v_max, const Real& over, const Real& s_trial, const Real& A_top,
+                           const Real& r_top, const Mask<Real>& active) const {
         if constexpr (is_differentiated<Real>) {
-            const double zeta = solve<double>(value_of(v_max), value_of(over), value_of(s_trial), value_of(pc),
-                                              value_of(A_top), active)
+            const double zeta = solve<double>(value_of(v_max), value_of(over), value_of(s_trial), value_of(A_top),
+                                              value_of(r_top), active)
                                     .zeta;
-            const Point<Real> at = point(Real(zeta), v_max, over, s_trial);
+            const CurvePoint<Real> at = curve_point(Real(zeta), v_max, over, s_trial);
             const Real implicit = Real(zeta) - (at.residual - value_of(at.residual)) / value_of(at.slope);
-            return point(implicit, v_max, over, s_trial);
+            return curve_point(implicit, v_max, over, s_trial);
         } else {
-            constexpr int most_iterations = 9;
             const Real top = max(-over, Real(1e-16 * half_delta));
-            // At the trial volume pc is that of the start: no exponential needed here.
-            const Real r_top = max(select(over < Real(0.0), pc / A_top - 1.0, Real(0.0)), w * top);
-            const Real zeta_top = sqrt(top);
-            Point<Real> at = point_at<Real>(A_top, r_top, zeta_top, positive_part(over), s_trial);
+            const Real zeta_top = sqrt(top), zeta_half(sqrt(half_delta));
+            CurvePoint<Real> at = curve_point<Real>(A_top, min(max(r_top, w * top), Real(largest_r)), zeta_top,
+                                                    positive_part(over), s_trial);
             const Mask<Real> dilatant = at.h <= Real(0.0);
-            const Real zeta_half(sqrt(half_delta));
             const Real lower = select(dilatant, zeta_half, zeta_top);
-            Real upper = select(dilatant, zeta_top, zeta_half);
-            if (elasticity.alpha > 0.0) upper = select(dilatant, zeta_top, Real(2.0) * (zeta_top + zeta_half));
+            const Real far_end = elasticity.alpha > 0.0 ? Real(2.0) * (zeta_top + zeta_half) : zeta_half;
+            const Real upper = select(dilatant, zeta_top, far_end);
 
-            Real zeta = zeta_top;
+            CurvePoint<Real> root = at;
             Mask<Real> found = !active;
-            for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-                // R rises through the root; a slope that falls tells only on which side the root is.
-                const Real downhill = select(at.residual < Real(0.0), Real(1.0), Real(-1.0));
-                const Real newton = zeta - select(at.slope > Real(0.0), at.residual / at.slope, -downhill);
-                // Quadratic convergence: the error after this step is of the order of its square.
-                const Mask<Real> close = abs(newton - zeta) <= 1e-9 * zeta;
-                Real next = select(newton > upper, 0.5 * (zeta + upper), newton);
-                next = select(newton < lower, 0.5 * (zeta + lower), next);
-                zeta = select(found, zeta, next);
+            for (int iteration = 1; iteration <= most_newton_steps; ++iteration) {
+                // R rises through the root; where it falls, its sign still tells on which side the root is.
+                const Real side = select(at.residual < Real(0.0), Real(-1e3), Real(1e3));
+                const Real step = select(at.slope > Real(0.0), at.residual / at.slope, side);
+                const Real newton = at.zeta - step, size = abs(step);
+                // What this step leaves, and what first order leaves of the exponentials, is of the order of its square.
+                const Mask<Real> close = size <= 1e-8 * at.zeta && (w * at.zeta) * size <= Real(1e-8);
+                root.assign(close && !found, at.moved_to(newton));
                 found = found || close;
-                at = point(zeta, v_max, over, s_trial);
                 if (all(found)) break;
+                Real next = select(newton > upper, 0.5 * (at.zeta + upper), newton);
+                next = select(newton < lower, 0.5 * (at.zeta + lower), next);
+                at = curve_point(next, v_max, over, s_trial);
             }
-            const Mask<Real> wrong = active && !(found && at.s <= (1.0 + 1e-13) * s_trial);
-            if (any(wrong)) [[unlikely]]
-                at = point(bracketed_lanes(v_max, over, s_trial, zeta, wrong), v_max, over, s_trial);
-            return at;
+            const Mask<Real> wrong = active && !(found && root.s <= (1.0 + 1e-13) * s_trial);
+            if (any(wrong)) [[unlikely]] {
+                const Real zeta = bracketed_lanes(v_max, over, s_trial, root.zeta, wrong);
+                root.assign(wrong, curve_point(zeta, v_max, over, s_trial));
+            }
+            return root;
         }
     }
 
@@ -253,14 +289,14 @@ struct CamClayReturn {
 
     // Steps 6 and 7 with a bracket that is known to hold a root, and its repair (alpha > 0 only).
     double bracketed(double v_max, double over, double s_trial) const {
-        const auto at = [&](double delta) { return point(sqrt(delta), v_max, over, s_trial); };
+        const auto at = [&](double delta) { return curve_point(sqrt(delta), v_max, over, s_trial); };
         const auto admissible = [&](double delta) {
-            const Point<double> x = at(delta);
+            const CurvePoint<double> x = at(delta);
             return x.h > 0.0 && x.s < s_trial;
         };
         const auto root = [&](double lower, double upper) {
             const auto residual = [&](double zeta) {
-                const Point<double> x = point(zeta, v_max, over, s_trial);
+                const CurvePoint<double> x = curve_point(zeta, v_max, over, s_trial);
                 return Residual<double>{x.residual, x.slope};
             };
             const double from = sqrt(lower), to = sqrt(upper);

@@ -31,7 +31,6 @@ template <AnalysisKind kind>
 struct CamClaySensitivity<kind, true> {
     std::array<Stress<kind, double>, std::size_t{components(kind)}> elastic;
     std::array<double, std::size_t{components(kind)}> log_pc;
-    bool carried = false;  // a single step has a closed form
 };
 
 struct CamClaySubsteps {
@@ -41,10 +40,17 @@ struct CamClaySubsteps {
 
     static constexpr int most_steps = 1024;
 
+    bool is_single_step() const { return count == 1 && tolerance == 0.0; }
+    template <AnalysisKind kind, class Real>
+    CamClayPath<kind, Real> single_step(const CamClayPath<kind, Real>& start, const Real& dv,
+                                        const Stress<kind, Real>& de) const {
+        CamClaySensitivity<kind, false> none;
+        return in_steps(1, start, dv, de, none);
+    }
     template <AnalysisKind kind, class Real, bool wanted>
-    CamClayPath<kind, Real> integrate(const CamClayPath<kind, Real>& start, const Real& dv,
-                                      const Stress<kind, Real>& de,
-                                      CamClaySensitivity<kind, wanted>& sensitivity) const {
+    CamClayPath<kind, Real> several_steps(const CamClayPath<kind, Real>& start, const Real& dv,
+                                          const Stress<kind, Real>& de,
+                                          CamClaySensitivity<kind, wanted>& sensitivity) const {
         if (tolerance > 0.0) return to_tolerance(start, dv, de, sensitivity);
         return in_steps(count, start, dv, de, sensitivity);
     }
@@ -98,7 +104,7 @@ struct CamClaySubsteps {
             path.last = plasticity.step<Real>(path.v + part * dv, s_trial, path.pc, path.log_pc);
             const CamClayStep<Real>& step = path.last;
             if constexpr (wanted)
-                if (steps > 1) carry(sensitivity, step, path.e, s_trial, part, k == 0);
+                carry(sensitivity, step, path.e, s_trial, part, k == 0);
             path.v = step.v;
             path.pc = step.pc;
             path.log_pc = step.log_pc;
@@ -164,7 +170,6 @@ struct CamClaySubsteps {
     void carry(CamClaySensitivity<kind, true>& s, const CamClayStep<double>& step, const Stress<kind, double>& trial,
                double s_trial, double part, bool first) const {
         if (first) s = {};
-        s.carried = true;
         const CamClayLinearStep l = plasticity.linearised(step);
         const Stress<kind, double> direction = (s_trial > 1e-15 ? 1.0 / s_trial : 0.0) * trial;  // sqrt(3/2) n
         for (int column = 0; column < components(kind); ++column) {

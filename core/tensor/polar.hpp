@@ -132,7 +132,7 @@ inline SingularValues<Real> singular_values(const Matrix3<Real>& f) {
 // R = sum_i left_i right_i^T; its derivative in the basis of the singular vectors is
 // (left^T dR right)_ij = (m_ij - m_ji)/(l_i + l_j), m = left^T dF right.
 template <class Real>
-inline Matrix3<Real> robust_rotation(const Matrix3<Real>& f) {
+[[gnu::noinline]] Matrix3<Real> robust_rotation(const Matrix3<Real>& f) {
     if constexpr (is_differentiated<Real>) {
         Matrix3<double> value;
         for (std::size_t i = 0; i < 9; ++i) value.m[i] = value_of(f.m[i]);
@@ -166,22 +166,28 @@ inline Plane<Real> plane_rotation(const Matrix3<Real>& f) {
     return {a / t, b / t, t};
 }
 
-// F, or I where det F is not positive or F is not finite.
+// F, or I where det F is not positive beyond the rounding error of its evaluation (four eps times the sum of the
+// magnitudes of its terms), F is not finite, or det F < 1e-60 or |F| > 1e30 (squares stay in range).
 template <AnalysisKind kind, class Real>
 inline Matrix3<Real> admissible(const Matrix3<Real>& f, Mask<Real>& valid) {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
     Matrix3<Real> g = f;
     if constexpr (kind != AnalysisKind::solid) g(0, 2) = g(2, 0) = g(1, 2) = g(2, 1) = Real(0.0);
     if constexpr (kind == AnalysisKind::plane_stress) g(2, 2) = Real(1.0);
     const Real j = jacobian<kind>(g);
-    valid = j > Real(0.0) && is_finite(squared_norm(g) * squared_norm(g)) && is_finite(1.0 / j);
+    Real terms = abs(g(0, 0) * g(1, 1)) + abs(g(0, 1) * g(1, 0));
+    if constexpr (kind == AnalysisKind::solid)
+        terms = abs(g(2, 2)) * terms + abs(g(0, 2)) * (abs(g(1, 0) * g(2, 1)) + abs(g(1, 1) * g(2, 0))) +
+                abs(g(1, 2)) * (abs(g(0, 0) * g(2, 1)) + abs(g(0, 1) * g(2, 0)));
+    else terms = abs(g(2, 2)) * terms;
+    valid = j > 4.0 * eps * terms && j > Real(1e-60) && squared_norm(g) < Real(1e60);
     if constexpr (kind != AnalysisKind::solid) valid = valid && g(2, 2) > Real(0.0);
     return select_matrix(valid, g, Matrix3<Real>::identity());
 }
 
 }  // namespace polar_detail
 
-// F = R U = V R. Where det F is not positive (or F not finite) all three are I and `valid` is false. det F is the value
-// of the usual formula, uncertain by eps |F|^3.
+// F = R U = V R. Where det F is not positive (see polar_detail::admissible) all three are I and `valid` is false.
 template <class Real>
 struct Polar {
     Matrix3<Real> rotation, left, right;
@@ -207,11 +213,11 @@ inline Matrix3<Real> rotation(const Matrix3<Real>& deformation, Mask<Real>& vali
         const Real inverse = 1.0 / v.denominator, linear = (first + v.i2) * inverse, odd = v.i1 * inverse;
         const Matrix3<Real> bf = symmetric_product(f, f) * f;
         for (std::size_t i = 0; i < 9; ++i) r.m[i] = odd * c.m[i] + linear * f.m[i] - inverse * bf.m[i];
-        // One step of Newton's iteration, with det R = 1 + O(error^2): orthogonal to rounding.
+        if (any(v.ill_conditioned)) r = select_matrix(v.ill_conditioned, robust_rotation(f), r);
+        // One step of Newton's iteration X <- (X + X^-T)/2 squares what is left of the error in R R^T = I.
         c = cofactors(r);
         const Real determinant_r = r(0, 0) * c(0, 0) + r(0, 1) * c(0, 1) + r(0, 2) * c(0, 2);
         r = 0.5 * r + (0.5 / determinant_r) * c;
-        if (any(v.ill_conditioned)) r = select_matrix(v.ill_conditioned, robust_rotation(f), r);
     }
     return r;
 }
@@ -221,8 +227,21 @@ inline Matrix3<Real> rotation(const Matrix3<Real>& deformation) {
     return rotation<kind>(deformation, valid);
 }
 
-// E = V - I of F = I + H, accurate relative to E at any strain. `valid` is set to det F > 0 (and F finite); elsewhere E
-// = 0. In the plane kinds the components 13, 31, 23, 32 are not read, in plane stress 33 is returned as 0.
+namespace polar_detail {
+
+// V - I from V = sym(F R^T); out of the way of the usual case.
+template <class Real>
+[[gnu::noinline]] Matrix3<Real> direct_stretch_minus_identity(const Matrix3<Real>& f) {
+    Matrix3<Real> v = symmetric_product(f, rotation(f));
+    for (int i = 0; i < 3; ++i) v(i, i) = v(i, i) - 1.0;
+    return v;
+}
+
+}  // namespace polar_detail
+
+// E = V - I of F = I + H, accurate relative to E at any strain. `valid` is set to det F > 0 (see
+// polar_detail::admissible); elsewhere E = 0. In the plane kinds the components 13, 31, 23, 32 are not read, in plane
+// stress 33 is returned as 0.
 template <AnalysisKind kind = AnalysisKind::solid, class Real>
 inline Matrix3<Real> left_stretch_minus_identity(const Matrix3<Real>& h, Mask<Real>& valid) {
     using namespace polar_detail;
@@ -262,9 +281,7 @@ inline Matrix3<Real> left_stretch_minus_identity(const Matrix3<Real>& h, Mask<Re
         // The terms above cancel where V is not near I, and there V - I does not.
         const Mask<Real> far = v.ill_conditioned || first > Real(3.0 + large_strain);
         if (any(far)) {
-            Matrix3<Real> direct = symmetric_product(f, rotation(f));
-            for (int i = 0; i < 3; ++i) direct(i, i) = direct(i, i) - 1.0;
-            e = select_matrix(far, direct, e);
+            e = select_matrix(far, polar_detail::direct_stretch_minus_identity(f), e);
         }
         return e;
     }

@@ -79,7 +79,8 @@ void j2(double* stress, double* statev, double* c, double* sse, double* spd, con
 // Neo-Hookean, from DFGRD1 only: sigma = (mu (B - 1) + lambda ln J 1) / J. PROPS mu, lambda.
 void neo_hookean(double* stress, double* c, const double* f, const double* props) {
     const auto F = [f](int i, int j) { return f[i + 3 * j]; };
-    const double J = F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) - F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
+    const double J = F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) -
+                     F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
                      F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
     const double mu = props[0], lambda = props[1];
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -89,14 +90,16 @@ void neo_hookean(double* stress, double* c, const double* f, const double* props
             for (int k = 0; k < 3; ++k) b[i][j] += F(i, k) * F(j, k);
     const auto one = [](int i, int j) { return i == j ? 1.0 : 0.0; };
     for (int a = 0; a < 6; ++a)
-        stress[a] = (mu * (b[row[a]][column[a]] - one(row[a], column[a])) + lambda * std::log(J) * one(row[a], column[a])) / J;
+        stress[a] =
+            (mu * (b[row[a]][column[a]] - one(row[a], column[a])) + lambda * std::log(J) * one(row[a], column[a])) / J;
     // Jaumann rate of Kirchhoff stress over J: Truesdell part plus the stress terms, which make mu b of mu (b - 1).
     for (int a = 0; a < 6; ++a)
         for (int d = 0; d < 6; ++d) {
             const int i = row[a], j = column[a], k = row[d], l = column[d];
-            c[a + 6 * d] = (lambda * one(i, j) * one(k, l) +
-                            0.5 * mu * (one(i, k) * b[j][l] + one(i, l) * b[j][k] + one(j, k) * b[i][l] + one(j, l) * b[i][k])) /
-                           J;
+            c[a + 6 * d] =
+                (lambda * one(i, j) * one(k, l) +
+                 0.5 * mu * (one(i, k) * b[j][l] + one(i, l) * b[j][k] + one(j, k) * b[i][l] + one(j, l) * b[i][k])) /
+                J;
         }
 }
 
@@ -133,18 +136,30 @@ extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* ss
     }
     if (model == "ECHO") {
         // STATEV tells what the last call was given.
-        const double values[] = {time[0], time[1], *dtime, *temp, *dtemp, predef[0], dpred[0], *celent,
-                                 static_cast<double>(*ndi), static_cast<double>(*nshr), static_cast<double>(*noel),
-                                 static_cast<double>(*npt), static_cast<double>(jstep[0]), static_cast<double>(*kinc), *pnewdt};
+        const double values[] = {time[0],
+                                 time[1],
+                                 *dtime,
+                                 *temp,
+                                 *dtemp,
+                                 predef[0],
+                                 dpred[0],
+                                 *celent,
+                                 static_cast<double>(*ndi),
+                                 static_cast<double>(*nshr),
+                                 static_cast<double>(*noel),
+                                 static_cast<double>(*npt),
+                                 static_cast<double>(jstep[0]),
+                                 static_cast<double>(*kinc),
+                                 *pnewdt};
         std::copy(std::begin(values), std::end(values), statev);
-        for (int i = 0; i < 9 && *nstatv >= 60; ++i) {
+        for (int i = 0; i < 9 && *nstatv >= 70; ++i) {
             statev[20 + i] = dfgrd0[i];
             statev[30 + i] = dfgrd1[i];
             statev[40 + i] = drot[i];
         }
-        for (int i = 0; i < n && *nstatv >= 60; ++i) {
+        for (int i = 0; i < n && *nstatv >= 70; ++i) {
             statev[50 + i] = stran[i];
-            statev[15 + std::min(i, 4)] = dstran[i];
+            statev[60 + i] = dstran[i];
         }
     }
     elastic_stiffness(props[0], props[1], *ndi, *nshr, model == "COHESIVE", ddsdde);
@@ -154,7 +169,8 @@ extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* ss
         const std::vector<double> stiffness(ddsdde, ddsdde + n * n);
         for (int i = 0; i < n; ++i) {
             stress[i] = 0;
-            for (int j = 0; j < n; ++j) stress[i] += stiffness[static_cast<std::size_t>(i + n * j)] * (stran[j] + dstran[j]);
+            for (int j = 0; j < n; ++j)
+                stress[i] += stiffness[static_cast<std::size_t>(i + n * j)] * (stran[j] + dstran[j]);
         }
         stress[0] += props[2] * strain22 * strain22;
         ddsdde[0 + n * 1] += 2 * props[2] * strain22;
@@ -168,7 +184,7 @@ extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* ss
         stress[i] += change;
     }
     *sse += energy;
-    // A tangent five times too stiff: Newton still has to arrive.
+    // Too stiff: Newton still has to arrive, linearly.
     if (model == "BADTANGENT") std::for_each(ddsdde, ddsdde + n * n, [](double& c) { c *= 1.25; });
 }
 
@@ -206,8 +222,15 @@ extern "C" void vumat_(const int* nblock, const int* ndir, const int* nshr, cons
     if (model == "UNEQUAL") stress_new[n - 1] *= 1 + 1e-6;
     if (model == "HISTORY" && *total_time == 0) state_new[0] = 1;
     if (model == "ECHO") {
-        const double values[] = {*step_time, *total_time, *dt, temp_new[0], *nfieldv > 0 ? field_new[0] : 0,
-                                 *char_length, *density, static_cast<double>(*ndir), static_cast<double>(*nshr)};
+        const double values[] = {*step_time,
+                                 *total_time,
+                                 *dt,
+                                 temp_new[0],
+                                 *nfieldv > 0 ? field_new[0] : 0,
+                                 *char_length,
+                                 *density,
+                                 static_cast<double>(*ndir),
+                                 static_cast<double>(*nshr)};
         for (int p = 0; p < n; ++p) {
             for (int s = 0; s < 9; ++s) state_new[p + s * n] = values[s];
             for (int i = 0; i < components; ++i) {

@@ -53,12 +53,18 @@ std::vector<Case> make_cases() {
     std::vector<Case> cases;
     for (int m = 0; m < lode_model_count(); ++m) {
         const lode_model& model = *lode_model_at(m);
-        for (int s = 0; s < model.sample_count; ++s)
+        for (int s = 0; s < model.sample_count; ++s) {
+            const std::size_t first = cases.size();
+            double stiffness = 0.0;
             for (int k = 0; k < kind_count; ++k) {
                 const auto kind = static_cast<AnalysisKind>(k);
-                if (serves(model, kind) && (model.samples[s].kinds & kind_bit(kind)) != 0)
-                    cases.push_back(make_case(model, model.samples[s], kind));
+                if (!serves(model, kind) || (model.samples[s].kinds & kind_bit(kind)) == 0) continue;
+                cases.push_back(make_case(model, model.samples[s], kind));
+                stiffness = std::max(stiffness, cases.back().stiffness);
             }
+            // A condensed kind is softer, but its rounding errors are those of the solid.
+            for (std::size_t i = first; i < cases.size(); ++i) cases[i].stiffness = stiffness;
+        }
     }
     return cases;
 }
