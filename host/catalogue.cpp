@@ -114,12 +114,14 @@ std::string reference_page(const lode_model& model, const Library& library) {
 
     page += fmt::format("## PROPS\n\n{} required, {} in all.\n\n", model.required_count, model.parameter_count);
     std::vector<Row> rows;
+    std::string notes;  // below the table, which they would make too wide
     for (int i = 0; i < model.parameter_count; ++i) {
         const lode_parameter& p = model.parameters[i];
-        const std::string note = p.note != nullptr && *p.note != '\0' ? fmt::format("{}: {}", p.name, p.note) : p.name;
-        rows.push_back({fmt::format("{}", i + 1), p.symbol, note, p.unit, range_of(p), default_of(p)});
+        rows.push_back({fmt::format("{}", i + 1), p.symbol, p.name, p.unit, range_of(p), default_of(p)});
+        if (p.note != nullptr && *p.note != '\0') notes += fmt::format("- {}: {}\n", p.symbol, p.note);
     }
     page += markdown_table({"#", "Symbol", "Name", "Unit", "Range", "Default"}, rows);
+    if (!notes.empty()) page += "\n" + notes;
 
     page += "\n## STATEV\n\n";
     if (model.state_count == 0) {

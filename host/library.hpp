@@ -45,7 +45,8 @@ std::string padded_material_name(const std::string& name);
 struct CallCount {
     std::int64_t calls = 0;
     std::int64_t points = 0;  // calls times points in a block
-    double nanoseconds = 0;
+    double nanoseconds = 0;   // of all calls but the first, which may read in the material
+    double first_nanoseconds = 0;
 };
 
 class Library {

@@ -17,7 +17,9 @@ namespace lode {
 //   int required_state(AnalysisKind) const;                       STATEV entries it needs
 //   template <kind, Real, T> void update(const Increment<kind, Real>&, Point<kind, Real>&, T& tangent_or_none) const;
 //   template <kind> void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>&) const;
-// and, if it has something to say at creation, `std::string warnings() const`.
+// and, if it has something to say at creation, `std::string warnings() const`. A model with variants (a hardening law,
+// an option) may also have `specialise(f)`, which calls f with the one `update`-able kernel that its constants ask for:
+// then each variant gets code of its own, free of the others.
 template <class Model>
 concept MaterialModel = std::constructible_from<Model, const Properties&> &&
     requires(const Model& model, AnalysisKind kind) {
@@ -26,6 +28,12 @@ concept MaterialModel = std::constructible_from<Model, const Properties&> &&
 };
 
 namespace detail {
+
+template <class Model, class F>
+LODE_INLINE void specialise(const Model& model, const F& f) {
+    if constexpr (requires { model.specialise(f); }) model.specialise(f);
+    else f(model);
+}
 
 // Zero if every component is finite, NaN otherwise.
 template <class V>
@@ -36,10 +44,9 @@ inline auto finiteness(const V& a) {
 }
 
 // A model's update is inlined here, so that the point lives in registers and what no caller reads is never computed.
-template <class Model, AnalysisKind kind>
-void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
+template <AnalysisKind kind, class Kernel>
+LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments a, CallStatus& status) {
     constexpr int n = components(kind);
-    const Model& model = *static_cast<const Model*>(material);
 
     Increment<kind, double> increment;
     Point<kind, double> point;
@@ -64,7 +71,7 @@ void umat_call(const void* material, const UmatArguments& a, CallStatus& status)
     for (int i = 0; i < n; ++i) a.ddsddt[i] = 0.0;
     for (int i = 0; i < n; ++i) a.drplde[i] = 0.0;
     Tangent<kind> tangent{a.ddsdde, a.ddsddt, a.drplde};
-    model.template update<kind, double>(increment, point, tangent);
+    kernel.template update<kind, double>(increment, point, tangent);
 
     status.warning = point.warning;
     if (point.failure != nullptr) [[unlikely]] {
@@ -83,6 +90,14 @@ void umat_call(const void* material, const UmatArguments& a, CallStatus& status)
     *a.drpldt = tangent.heat_rate_temperature;
 }
 
+template <class Model, AnalysisKind kind>
+void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
+    specialise(
+        *static_cast<const Model*>(material), [&](const auto& kernel) __attribute__((always_inline)) {
+            umat_point<kind>(kernel, a, status);
+        });
+}
+
 // Column of the VUMAT arrays that holds component i of the UMAT order. The arrays of an explicit plane-stress call have
 // the (3,1) layout.
 template <AnalysisKind kind>
@@ -95,8 +110,8 @@ template <AnalysisKind kind>
 constexpr int vumat_columns = kind == AnalysisKind::plane_stress ? 4 : components(kind);
 
 // As many points as the batch has lanes, starting at `first`.
-template <class Model, AnalysisKind kind>
-LODE_INLINE void vumat_lanes(const Model& model, const VumatArguments& a, int first, CallStatus& status) {
+template <AnalysisKind kind, bool finite_strain, class Kernel>
+LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int first, CallStatus& status) {
     constexpr int n = components(kind), normals = normal_components(kind);
     const std::ptrdiff_t stride = a.stride;
 
@@ -124,14 +139,14 @@ LODE_INLINE void vumat_lanes(const Model& model, const VumatArguments& a, int fi
         point.wants_thickness_strain = kind == AnalysisKind::plane_stress;
         NoTangent none;
         const Stress<kind, Batch> stress_old = point.stress;
-        model.template update<kind, Batch>(increment, point, none);
+        kernel.template update<kind, Batch>(increment, point, none);
         if (point.warning != nullptr) status.warning = point.warning;
         if (point.failure == nullptr) [[likely]] {
             for (int i = 0; i < n; ++i)
                 point.stress[i].store_unaligned(a.stress_new + vumat_column<kind>(i) * stride + first);
             const Batch inverse_density = 1.0 / Batch::load_unaligned(a.density + first);
             Batch energy;
-            if constexpr ((Model::description.traits & LODE_FINITE_STRAIN) != 0) {
+            if constexpr (finite_strain) {
                 energy = point.elastic_energy * inverse_density;
             } else {
                 const Batch work = 0.5 * double_contraction(stress_old + point.stress, increment.strain_increment);
@@ -232,30 +247,44 @@ inline void copy_state(const VumatArguments& a, int from_column) {
         std::copy_n(a.state_old + c * a.stride, a.nblock, a.state_new + c * a.stride);
 }
 
-template <class Model, AnalysisKind kind>
-void vumat_call(const void* material, const VumatArguments& a, CallStatus& status) {
-    const Model& model = *static_cast<const Model*>(material);
-    copy_state(a, model.required_state(kind));
+template <AnalysisKind kind, bool finite_strain, class Kernel>
+LODE_INLINE void vumat_block(const Kernel& shared_kernel, const VumatArguments& a, CallStatus& status) {
+    // Copies whose address goes nowhere: what a store of results cannot change is loaded once a block.
+    const Kernel kernel = shared_kernel;
+    const VumatArguments block = a;
     constexpr int columns = vumat_columns<kind>;
-    constexpr bool reads_stretch = (Model::description.traits & LODE_FINITE_STRAIN) != 0;
     Remainder remainder;
-    for (int first = 0; first < a.nblock; first += batch_lanes) {
-        const bool fills_a_batch = a.nblock - first >= batch_lanes;
+    VumatArguments lanes = block;
+    for (int first = 0; first < block.nblock; first += batch_lanes) {
+        int at = first;
+        const bool fills_a_batch = block.nblock - first >= batch_lanes;
         if (!fills_a_batch) [[unlikely]] {
             if (Remainder::columns_needed(a, columns) > Remainder::columns_available) {
                 status.failure = "too many state and field variables for a block that does not fill the registers";
                 status.failed_point = first + 1;
                 return;
             }
-            remainder.pack_from(a, columns, first, reads_stretch);
+            remainder.pack_from(a, columns, first, finite_strain);
+            lanes = remainder.packed();
+            at = 0;
         }
-        vumat_lanes<Model, kind>(model, fills_a_batch ? a : remainder.packed(), fills_a_batch ? first : 0, status);
+        vumat_lanes<kind, finite_strain>(kernel, lanes, at, status);
         if (status.failure != nullptr) [[unlikely]] {
-            if (!fills_a_batch) status.failed_point += first;
+            status.failed_point += first - at;
             return;
         }
         if (!fills_a_batch) remainder.unpack(columns, kind == AnalysisKind::plane_stress);
     }
+}
+
+template <class Model, AnalysisKind kind>
+void vumat_call(const void* material, const VumatArguments& a, CallStatus& status) {
+    const Model& model = *static_cast<const Model*>(material);
+    copy_state(a, model.required_state(kind));
+    constexpr bool finite_strain = (Model::description.traits & LODE_FINITE_STRAIN) != 0;
+    specialise(
+        model, [&](const auto& kernel)
+                   __attribute__((always_inline)) { vumat_block<kind, finite_strain>(kernel, a, status); });
 }
 
 // stepTime = totalTime = 0: the host probes with made-up strains. Elastic answer, no history (conventions page).

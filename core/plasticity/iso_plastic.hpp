@@ -34,6 +34,12 @@ struct IsoPlastic {
         elastic.set_stiffness<kind>(c);
     }
 
+    // Calls f with the kernel of the hardening law at hand.
+    template <class F>
+    LODE_INLINE void specialise(const F& f) const {
+        hardening.visit([&](const auto& law) __attribute__((always_inline)) { f(WithLaw{*this, law}); });
+    }
+
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         hardening.visit([&](const auto& law)
@@ -47,6 +53,19 @@ struct IsoPlastic {
     double reference_length;
 
   private:
+    template <class Law>
+    struct WithLaw {
+        const IsoPlastic& model;
+        Law law;
+
+        template <AnalysisKind kind, class Real, class T>
+        LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+            model.update_with(law, increment, point, tangent);
+        }
+    };
+    template <class Law>
+    WithLaw(const IsoPlastic&, const Law&) -> WithLaw<Law>;
+
     // Plastic strain has engineering shears; plane stress keeps the thickness component too.
     template <AnalysisKind kind>
     static constexpr int plastic_components = kind == AnalysisKind::solid      ? 6

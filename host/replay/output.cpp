@@ -178,7 +178,9 @@ replot
 set output
 )",
         fmt::arg("data", quoted(data)),
-        fmt::arg("key", figure.y.size() > 1 ? "set key below center horizontal Left reverse samplen 2 spacing 1.3 height 0.5" : "unset key"),
+        fmt::arg("key", figure.y.size() > 1
+                            ? "set key below center horizontal Left reverse samplen 2 spacing 1.3 height 0.5"
+                            : "unset key"),
         fmt::arg("title", quoted(figure.title)), fmt::arg("x", double_quoted(figure.x_label)),
         fmt::arg("y", double_quoted(figure.y_label)), fmt::arg("png", quoted(name + ".png")),
         fmt::arg("svg", quoted(name + ".svg")), fmt::arg("curves", curves));

@@ -58,12 +58,11 @@ std::string Summary::text(const Outcome& outcome, const Library& library) const 
          statistics.increments > 0 ? static_cast<double>(statistics.iterations) / statistics.increments : 0.0,
          statistics.most_iterations);
     const CallCount& calls = statistics.calls;
-    if (umat)
-        line("calls       {} of UMAT, {:.1f} ns each", calls.calls,
-             calls.calls > 0 ? calls.nanoseconds / static_cast<double>(calls.calls) : 0.0);
-    else
-        line("calls       {} of VUMAT with {} points, {:.1f} ns a point", calls.calls, scenario_.analysis.block,
-             calls.points > 0 ? calls.nanoseconds / static_cast<double>(calls.points) : 0.0);
+    const double points = umat ? 1 : scenario_.analysis.block;
+    const double each = calls.calls > 1 ? calls.nanoseconds / static_cast<double>(calls.calls - 1) / points : 0.0;
+    line("calls       {} of {}{}, {:.1f} ns {} (the first {:.0f} ns)", calls.calls, umat ? "UMAT" : "VUMAT",
+         umat ? "" : fmt::format(" on {} points", scenario_.analysis.block), each, umat ? "each" : "a point",
+         calls.first_nanoseconds / points);
 
     line("");
     line("{:<14}{:>14}{:>14}{:>12}{:>14}{:>12}", "", "end", "minimum", "at time", "maximum", "at time");

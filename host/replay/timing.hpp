@@ -42,7 +42,8 @@ void timed_call(CallCount& count, int points, Call&& call) {
     if (!returned)
         throw Refused(last_library_error().empty() ? "the library ended the analysis (XIT) without a message"
                                                    : "the library ended the analysis: " + last_library_error());
-    count.nanoseconds += std::max(0.0, std::chrono::duration<double, std::nano>(end - begin).count() - overhead);
+    const double spent = std::max(0.0, std::chrono::duration<double, std::nano>(end - begin).count() - overhead);
+    (count.calls == 1 ? count.first_nanoseconds : count.nanoseconds) += spent;
 }
 
 }  // namespace lode::host

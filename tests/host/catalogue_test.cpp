@@ -28,7 +28,7 @@ TEST_F(Catalogue, ModelsAreFoundByMaterialName) {
 TEST_F(Catalogue, ReferencePage) {
     expect_all(reference_page(spring, library),
                {"# SPRING: A spring", "Shows what a page looks like.", "3d (3,3), plane_stress (2,1)", "UNSYMM",
-                "| 1   | K ", "> 0 ", "-1 < x < 0.5", "0..2", "algorithm: 0 slow; 1 fast", "1 (or 0)", "required",
+                "| 1   | K ", "> 0 ", "-1 < x < 0.5", "0..2", "- MODE: 0 slow; 1 fast", "1 (or 0)", "required",
                 "| COUNT |", "2.5", "PROPS(3) = 1", "exact", "- Fails at nothing."});
 }
 

@@ -74,7 +74,7 @@ TEST(InstructionSets, AgreeToRounding) {
     if (variants.empty()) GTEST_SKIP() << "built for the compiler's default only";
     std::vector<Number> reference;
     std::istringstream list(variants);
-    for (std::string variant; std::getline(list, variant, ';');) {
+    for (std::string variant; std::getline(list, variant, ',');) {
         const Run swept = run("LODE_ISA=" + variant, "sweep", "2>/dev/null");
         ASSERT_EQ(swept.status, 0) << variant;
         const std::vector<Number> numbers = parse(swept.output);
