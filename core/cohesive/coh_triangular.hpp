@@ -66,8 +66,10 @@ struct CohTriangular {
             "- The modes do not weaken each other before failure: for mixed-mode work a coupled law is better.\n",
     };
 
-    explicit CohTriangular(const Properties& p)
-        : interface{Sawtooth(p, 1, "n"), Sawtooth(p, 4, "t"), p[7], p[7], Contact(p.code(8), p[9], p[1]), p[10]} {}
+    explicit CohTriangular(const Properties& p) : interface {
+        Sawtooth(p, 1, "n"), Sawtooth(p, 4, "t"), p[7], p[7], Contact(p.code(8), p[9], p[1]), p[10]
+    } {
+    }
 
     int required_state(AnalysisKind) const { return interface_state::count; }
 

@@ -62,7 +62,7 @@ struct DecoupledInterface {
         result.shear_damage = select(result.failed, one, min(1.0 - intact_t, largest_damage));
         result.normal_stiffness = select(result.failed, zero, normal.stiffness * intact_n);
         result.shear_stiffness = select(result.failed, zero, shear.stiffness * intact_t);
-        result.finish(path, contact, thickness, point);
+        if (!result.finish(path, contact, thickness, point)) return;
 
         if constexpr (wants_tangent<T>) {
             // 3. S' where damage grew, S/delta elsewhere; in shear along and across the direction of sliding
@@ -124,17 +124,18 @@ struct DecoupledInterface {
 
             Residual<Real> r;
             r.value = past_end(dn, dt);
-            r.slope = select((dn - normal.end) * shear.end > (dt - shear.end) * normal.end, dn_rate * (1.0 / normal.end),
-                             dt_rate * (1.0 / shear.end));
+            r.slope = select((dn - normal.end) * shear.end > (dt - shear.end) * normal.end,
+                             dn_rate * (1.0 / normal.end), dt_rate * (1.0 / shear.end));
             if (p > 0.0) {
                 const Real GI = released(normal, dn), GII = released(shear, dt);
                 const Real criterion = released_fraction(GI, GII) - 1.0;
                 const auto rate = [](const auto& law, const Real& delta, const Real& G, double exponent) {
                     const double scale = 1.0 / law.toughness;
-                    return exponent * scale * power(G * scale, exponent - 1.0) * law.release_rate(min(delta, Real(law.end)));
+                    return exponent * scale * power(G * scale, exponent - 1.0) *
+                           law.release_rate(min(delta, Real(law.end)));
                 };
-                r.slope = select(criterion > r.value, rate(normal, dn, GI, p) * dn_rate + rate(shear, dt, GII, q) * dt_rate,
-                                 r.slope);
+                r.slope = select(criterion > r.value,
+                                 rate(normal, dn, GI, p) * dn_rate + rate(shear, dt, GII, q) * dt_rate, r.slope);
                 r.value = max(r.value, criterion);
             }
             return r;

@@ -91,8 +91,8 @@ struct SeparationPath {
 // released. A law fills the members and calls `finish`.
 template <AnalysisKind kind, class Real>
 struct InterfaceResult {
-    Real normal_stiffness, shear_stiffness;      // (1 - D) k, 0 after failure
-    Real dn, dt, normal_damage, shear_damage;    // delta and D
+    Real normal_stiffness, shear_stiffness;    // (1 - D) k, 0 after failure
+    Real dn, dt, normal_damage, shear_damage;  // delta and D
     Real GI, GII, Gdrop;
     Mask<Real> failed;
 
@@ -101,7 +101,8 @@ struct InterfaceResult {
         return select(un < Real(0.0), contact.stiffness(normal_stiffness), normal_stiffness);
     }
 
-    void finish(const SeparationPath<kind, Real>& path, const Contact& contact, double thickness,
+    // False, with the point marked as failed, where the work overflows.
+    bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double thickness,
                 Point<kind, Real>& point) const {
         namespace index = interface_state;
         constexpr int n = components(kind);
@@ -116,8 +117,13 @@ struct InterfaceResult {
         for (int i = 0; i < n; ++i) {
             work = work + (point.stress[i] + traction[i]) * path.change[i];
             stored = stored + traction[i] * path.end[i];
-            point.stress[i] = traction[i];
         }
+        const Mask<Real> sound = is_finite(work + stored);
+        if (!all(sound)) [[unlikely]] {
+            point.fail(!sound, "the separation is out of range");
+            return false;
+        }
+        for (int i = 0; i < n; ++i) point.stress[i] = traction[i];
         const double per_volume = 1.0 / thickness;
         point.elastic_energy = 0.5 * per_volume * stored;
         point.plastic_dissipation = per_volume * (GI + GII + Gdrop - released_before);
@@ -133,6 +139,7 @@ struct InterfaceResult {
         state.set(index::W, work_before + 0.5 * work);
         state.set(index::Gdrop, Gdrop);
         state.set(index::status, select(failed, Real(0.0), Real(1.0)));
+        return true;
     }
 };
 

@@ -15,7 +15,7 @@ constexpr lode_parameter dilatational_option(double default_value) {
 // The volume ratio in the forms that the laws need, each without cancellation.
 template <class Real>
 struct VolumeRatio {
-    Real j;        // J - 1
+    Real j;  // J - 1
     Real J;
     Real inverse;  // 1/J
     Real ln;       // ln J, present only where the energy is written in it
@@ -62,11 +62,11 @@ struct DilatationalEnergy {
         if (option == 0) return 0.5 * modulus * (v.j * (2.0 + v.j)) * v.inverse;
         return option == 1 ? modulus * v.j : modulus * v.inverse * v.ln;
     }
-    // J U' + J^2 U'' = d(J U')/d(ln J): its part of J C along 1 (x) 1.
+    // (J U')' = U' + J U'': the part of the spatial tangent along 1 (x) 1.
     template <class Real>
-    Real kirchhoff_stiffness(const VolumeRatio<Real>& v) const {
-        if (option == 0) return modulus * square(v.J);
-        return option == 1 ? modulus * v.J * (2.0 * v.J - 1.0) : Real(modulus);
+    Real stiffness(const VolumeRatio<Real>& v) const {
+        if (option == 0) return modulus * v.J;
+        return option == 1 ? modulus * (2.0 * v.J - 1.0) : modulus * v.inverse;
     }
 };
 

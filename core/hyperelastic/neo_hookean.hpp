@@ -105,15 +105,15 @@ struct NeoHookean {
         const Real g = shear * v.inverse, mean = dilatation.derivative(v);
         auto stress = g * k.b;
         add_to_normals(stress, 3, mean);
-        const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress));
+        // W/J, in which I1 - 3 - 2 ln J = (I1 - 3 - 2 j) + 2 (j - ln J)
+        const Real isochoric = 0.5 * first_invariant_excess<kind>(k.h) + v.excess_over_log();
+        const Real energy = v.inverse * (shear * isochoric + dilatation.energy(v));
+        const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress) + energy);
         if (!all(sound)) [[unlikely]]
             return point.fail(!sound, "det F <= 0, or the deformation is not finite");
         for (int i = 0; i < normals; ++i) point.stress[i] = stress[i];
         for (int i = normals; i < components(kind); ++i) point.stress[i] = stress[i + 3 - normals];
-
-        // I1 - 3 - 2 ln J = (I1 - 3 - 2 j) + 2 (j - ln J)
-        point.elastic_energy = v.inverse * (shear * (0.5 * first_invariant_excess<kind>(k.h) + v.excess_over_log()) +
-                                            dilatation.energy(v));
+        point.elastic_energy = energy;
 
         if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);
 
@@ -133,7 +133,7 @@ struct NeoHookean {
     ResidualStrain residual;
 
   private:
-    // J C = G M(B) + (J U' + J^2 U'') 1 (x) 1, and its companion for temperature (1.8).
+    // C = (G/J) M(B) + (J U')' 1 (x) 1, and its companion for temperature (1.8).
     template <AnalysisKind kind>
     void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v,
                      const Stress<kind, double>& stress, Tangent<kind>& tangent) const {
@@ -142,7 +142,7 @@ struct NeoHookean {
         auto left_cauchy_green = k.b;
         add_to_normals(left_cauchy_green, 3, 1.0);
 
-        const double volumetric = v.inverse * dilatation.kirchhoff_stiffness(v);
+        const double volumetric = dilatation.stiffness(v);
         double condensed = volumetric;
         if constexpr (kind == AnalysisKind::plane_stress) {
             // C_ab - C_a3 C_3b/C_33 with C_a3 = volumetric in the normal components, zero in shear
@@ -203,8 +203,8 @@ struct NeoHookean {
             const Real z = expm1(2.0 * y);
             return Residual<Real>{G * z + lambda * (y + area), 2.0 * G * (1.0 + z) + lambda};
         };
-        const Root<Real> root = solve_bracketed<Slope::increasing>(residual_of, lower, upper, upper,
-                                                                   1e-15 * abs(lambda * area), solvable);
+        const Root<Real> root =
+            solve_bracketed<Slope::increasing>(residual_of, lower, upper, upper, 1e-15 * abs(lambda * area), solvable);
         set_thickness(k, exp(root.x), expm1(root.x));
         return solvable && root.converged;
     }

@@ -23,8 +23,7 @@ struct ResidualStrain {
     template <AnalysisKind kind, class Real>
     Kinematics<kind, Real> mechanical(const Increment<kind, Real>& increment, const Real& e) const {
         const Matrix3<Real> f = increment.deformation_gradient();
-        if (thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0)))
-            return kinematics<kind>(f);
+        if (thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0))) return kinematics<kind>(f);
         return kinematics<kind>(f, e);
     }
 };

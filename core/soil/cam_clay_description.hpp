@@ -49,7 +49,7 @@ inline constexpr lode_state states[] = {
 inline constexpr unsigned served_kinds = LODE_SOLID | LODE_PLANE_STRAIN;
 inline constexpr double clay[] = {100.0, 0.02, 0.1, 1.2, 3000.0, 0.0, 120.0};
 inline constexpr double coupled[] = {90.0, 0.018, 0.13, 1.05, 2700.0, 60.0, 100.0};
-inline constexpr double stiff[] = {100.0, 0.01, 0.08, 0.9, 5000.0, 60.0, 2.0, 1.0, 100.0, 1.0, 1e-5, 2.0, 1e-3};
+inline constexpr double stiff[] = {100.0, 0.01, 0.08, 0.9, 5000.0, 60.0, 2.0, 1.0, 100.0, 1.0, 1e-5, 2.0, 1e-2};
 inline constexpr lode_sample samples[] = {
     {"CLAY", "lightly overconsolidated clay, kPa", clay, count_of(clay), 0.02, served_kinds},
     {"COUPLED", "clay whose shear modulus grows with pressure, kPa", coupled, count_of(coupled), 0.02,

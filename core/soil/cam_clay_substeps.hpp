@@ -139,16 +139,13 @@ struct CamClaySubsteps {
             coarse = fine;
         }
     }
+    // |sigma_b - sigma_a|. (The page takes the largest component, which depends on the axes: the answer would not turn
+    // with the material. The norm is never less.)
     template <AnalysisKind kind, class Real>
     static Real stress_change(const CamClayPath<kind, Real>& a, const CamClayPath<kind, Real>& b) {
+        const Stress<kind, Real> ds = (2.0 * b.last.mu) * b.e - (2.0 * a.last.mu) * a.e;
         const Real dp = b.last.p - a.last.p;
-        Real change = Real(0.0);
-        for (int i = 0; i < components(kind); ++i) {
-            Real d = 2.0 * (b.last.mu * b.e[i] - a.last.mu * a.e[i]);
-            if (i < 3) d = d - dp;
-            change = max(change, abs(d));
-        }
-        return change;
+        return sqrt(Real(double_contraction(ds, ds) + 3.0 * dp * dp));
     }
     template <AnalysisKind kind, class Real>
     static CamClayPath<kind, Real> merge(const Mask<Real>& keep, const CamClayPath<kind, Real>& kept,

@@ -61,7 +61,7 @@ class Refusals : public testing::TestWithParam<Case> {};
 TEST_P(Refusals, EveryIllegalConstant) {
     const Case& c = GetParam();
     const Numbers legal = complete_props(c);
-    const int nstatv = static_cast<int>(c.point().state().size());
+    const int nstatv = static_cast<int>(c.frugal_point().state().size());
     ASSERT_TRUE(UmatPoint(c.material(), c.kind, legal).evaluate({}).done())
         << "the sample with all defaults written out";
     for (int i = 0; i < c.model->parameter_count; ++i) {
@@ -79,7 +79,7 @@ TEST_P(Refusals, EveryIllegalConstant) {
 
 TEST_P(Refusals, TooFewConstants) {
     const Case& c = GetParam();
-    const int nstatv = static_cast<int>(c.point().state().size());
+    const int nstatv = static_cast<int>(c.frugal_point().state().size());
     for (int count = 0; count < c.model->required_count; ++count) {
         Numbers props = c.props();
         props.resize(static_cast<std::size_t>(count));
@@ -91,7 +91,7 @@ TEST_P(Refusals, TooFewConstants) {
 
 TEST_P(Refusals, TooFewStateVariables) {
     const Case& c = GetParam();
-    UmatPoint point = c.point();
+    UmatPoint point = c.frugal_point();
     const auto needed = static_cast<int>(point.state().size());
     if (needed > 0)
         expect_refusal(point.nstatv(needed - 1),

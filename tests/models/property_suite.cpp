@@ -14,7 +14,18 @@ std::string Case::name() const { return std::string(model->keyword) + "/" + samp
 Numbers Case::props() const { return {sample->constants, sample->constants + sample->constant_count}; }
 UmatPoint Case::point() const {
     UmatPoint point(material(), kind, props());
-    point.step({.dtime = 0.0});  // some laws set themselves up, their initial stress too, in the first call
+    const int needed = static_cast<int>(point.state().size());
+    for (int i = needed; i < model->state_count; ++i) {
+        Numbers state = point.state();
+        state.push_back(model->state[i].initial);
+        point.state(state);
+    }
+    point.step({.dtime = 0.0});
+    return point;
+}
+UmatPoint Case::frugal_point() const {
+    UmatPoint point(material(), kind, props());
+    point.step({.dtime = 0.0});
     return point;
 }
 

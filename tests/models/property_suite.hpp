@@ -32,7 +32,10 @@ struct Case {
     std::string material() const;  // e.g. "ISO_PLASTIC-STEEL"
     std::string name() const;      // e.g. "ISO_PLASTIC/STEEL/solid"
     Numbers props() const;
-    UmatPoint point() const;  // after a first call with a zero increment
+    // After a first call with a zero increment, in which some laws set themselves up. NSTATV is what the description
+    // lists, so that optional entries are kept as well, or just what the material needs.
+    UmatPoint point() const;
+    UmatPoint frugal_point() const;
 };
 const std::vector<Case>& all_cases();
 std::vector<Case> cases_in(unsigned kinds);

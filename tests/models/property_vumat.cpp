@@ -59,7 +59,7 @@ VumatPoint block_point(const UmatPoint& p, const Load& load) {
 }
 
 VumatBlock block_of(const Case& c, const std::vector<Situation>& all, std::size_t count) {
-    VumatBlock block(c.material(), c.kind, c.props());
+    VumatBlock block(c.point());
     for (std::size_t i = 0; i < count; ++i) block.points.push_back(block_point(all[i].point, all[i].load));
     block.total_time = all.front().point.total_time() + all.front().load.dtime;
     return block;
@@ -94,6 +94,13 @@ TEST_P(Vumat, AgreesWithUmat) {
                 vumat.state[k], umat.state[k],
                 64.0 * epsilon * std::max(std::abs(umat.state[k]), largest(umat.stress) / c.stiffness + c.scale()))
                 << "STATEV(" << k + 1 << ")";
+        // Trapezoid rule, or the stored energy itself where there is one.
+        double stored = 2.0 * 0.5;
+        for (std::size_t k = 0; k < umat.stress.size(); ++k)
+            stored += 0.5 * (s.point.stress()[k] + umat.stress[k]) * s.load.dstran[k];
+        if (c.has_trait(LODE_FINITE_STRAIN)) stored = umat.sse;
+        EXPECT_NEAR(vumat.internal_energy * vumat.density, stored,
+                    64.0 * epsilon * (scale * std::max(c.scale(), largest(s.load.dstran)) + 1.0));
         const double dissipated = umat.spd - s.point.spd() + umat.scd - s.point.scd();
         EXPECT_NEAR((vumat.inelastic_energy - 0.25) * vumat.density, dissipated,
                     64.0 * epsilon * (scale * c.scale() + vumat.density));
@@ -123,9 +130,9 @@ TEST_P(Vumat, AnswersDoNotDependOnTheBlock) {
 // stepTime = totalTime = 0 is a probe with made-up strains: an elastic answer, no history.
 TEST_P(Vumat, ProbeIsElastic) {
     const Case& c = GetParam();
-    VumatBlock block(c.material(), c.kind, c.props());
-    Random random(c, 11);
     const UmatPoint point = c.point();
+    VumatBlock block(point);
+    Random random(c, 11);
     const Answer virgin = point.evaluate({.dtime = 0.0});
     for (int i = 0; i < 9; ++i) {
         VumatPoint p = block.fresh_point();
@@ -163,19 +170,19 @@ TEST_P(Vumat, StopsAtNonFiniteInput) {
     }
 }
 
-double round(double x) { return static_cast<double>(static_cast<float>(x)); }
+// Not inlined: GCC 12 vectorizes neighbouring conversions to float and back wrongly and forgets one of them.
+[[gnu::noinline]] double as_float(double x) { return static_cast<double>(static_cast<float>(x)); }
 void round_all(Numbers& v) {
-    for (double& x : v) x = round(x);
+    for (double& x : v) x = as_float(x);
 }
-// Inlined, GCC 12 at -O3 forgets to round the last entry of the stretch.
-[[gnu::noinline]] VumatPoint in_single_precision(VumatPoint p) {
+VumatPoint in_single_precision(VumatPoint p) {
     round_all(p.stress);
     round_all(p.state);
     round_all(p.strain_increment);
-    p.stretch = p.stretch.cast<float>().cast<double>();
-    p.celent = round(p.celent);
-    p.temperature_old = round(p.temperature_old);
-    p.temperature_new = round(p.temperature_new);
+    p.stretch = p.stretch.unaryExpr(&as_float);
+    p.celent = as_float(p.celent);
+    p.temperature_old = as_float(p.temperature_old);
+    p.temperature_new = as_float(p.temperature_new);
     return p;
 }
 
@@ -193,8 +200,9 @@ TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
     const std::vector<Situation> all = situations(c, 144);
     Numbers props = c.props();
     round_all(props);
+    const UmatPoint prototype = UmatPoint(c.material(), c.kind, props).state(c.point().state());
     for (const std::size_t size : {std::size_t{7}, std::size_t{144}}) {
-        VumatBlock single(c.material(), c.kind, props);
+        VumatBlock single(prototype);
         for (std::size_t i = 0; i < size; ++i) {
             single.points.push_back(in_single_precision(block_point(all[i].point, all[i].load)));
         }
@@ -209,9 +217,9 @@ TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
             round_all(expected.state);
             EXPECT_EQ(actual.stress, expected.stress) << i + 1;
             EXPECT_EQ(actual.state, expected.state) << i + 1;
-            EXPECT_EQ(actual.internal_energy, round(expected.internal_energy));
-            EXPECT_EQ(actual.inelastic_energy, round(expected.inelastic_energy));
-            EXPECT_EQ(actual.thickness_strain_increment, round(expected.thickness_strain_increment));
+            EXPECT_EQ(actual.internal_energy, as_float(expected.internal_energy));
+            EXPECT_EQ(actual.inelastic_energy, as_float(expected.inelastic_energy));
+            EXPECT_EQ(actual.thickness_strain_increment, as_float(expected.thickness_strain_increment));
         }
     }
 }

@@ -119,7 +119,8 @@ TEST(CohTriangular, TR3) {
 TEST(CohTriangular, TR4) {
     Interface face(flat);
     Answer a = face.to({-0.0001, 0.01});
-    expect_row(a, {-10, 31.6742081448}, {{DN, 0.0003}, {DT, 0.01}, {GI, 0}, {GII, 0.187330316742}, {WORK, 0.158871040724}});
+    expect_row(a, {-10, 31.6742081448},
+               {{DN, 0.0003}, {DT, 0.01}, {GI, 0}, {GII, 0.187330316742}, {WORK, 0.158871040724}});
     EXPECT_EQ(a.tangent(0, 0), kn);
     a = face.to({0.004, 0.005});
     expect_row(a, {24.3654822335, 15.8371040724},
@@ -244,8 +245,8 @@ TEST(CohTriangular, EnergyIdentity) {
             Numbers props = set_a;
             props.insert(props.end(), {2, double(contact), 3e5, 0.25});
             Interface face(spatial, props, 0.25);
-            const Numbers path[] = {{0, 0, 0},      {0.004, 0.003, 0.001}, {-1e-4, 0.012, -0.01},
-                                    {0.006, 0, 0},  {-2e-4, -0.02, 0.01},  {0.001, 0.03, 0.01}};
+            const Numbers path[] = {{0, 0, 0},     {0.004, 0.003, 0.001}, {-1e-4, 0.012, -0.01},
+                                    {0.006, 0, 0}, {-2e-4, -0.02, 0.01},  {0.001, 0.03, 0.01}};
             const int steps = refinement == 0 ? 2000 : 4000;
             Answer a;
             for (std::size_t leg = 1; leg < std::size(path); ++leg)
@@ -412,6 +413,10 @@ TEST(CohTriangular, LargeJumpsAreFailureNotNoise) {
         EXPECT_NEAR(a.state[GI - 1] / 0.3 + a.state[GII - 1] / 0.9, 1.0, 1e-14);
         EXPECT_EQ(largest(a.stress), 0.0);
     }
+}
+
+TEST(CohTriangular, ClosureBeyondTheRangeOfNumbersAsksForLess) {
+    EXPECT_EQ(Interface(flat).point.step({.dstran = {-1e200, 0}}).pnewdt, 0.25);
 }
 
 TEST(CohTriangular, DropAtFailureByTheCriterionIsAccountedFor) {

@@ -60,9 +60,8 @@ TEST(NeoHookean, SimpleShearDoesNotDependOnTheDilatationalEnergy) {
 }
 
 TEST(NeoHookean, ConstrainedUniaxialTable) {
-    const double table[3][2] = {{3.5724852071006, 1.5310650887574},
-                                {3.7721893491124, 1.7307692307692},
-                                {3.205758570122, 1.1643384517788}};
+    const double table[3][2] = {
+        {3.5724852071006, 1.5310650887574}, {3.7721893491124, 1.7307692307692}, {3.205758570122, 1.1643384517788}};
     for (int uj = 0; uj < 3; ++uj) {
         const auto [s11, s22] = table[uj];
         expect_close({s11, s22, s22, 0, 0, 0}, at(solid, {E, nu, double(uj)}, diagonal(1.3, 1, 1)).stress);
@@ -79,9 +78,9 @@ TEST(NeoHookean, HydrostaticTable) {
 
 TEST(NeoHookean, GeneralDeformation) {
     const Answer a = at(solid, {E, nu}, general);
-    expect_close({3.1614412663149, -0.075506803665648, 1.6688003332408, 1.1802277145237, -1.6662038322688,
-                  1.0934462649264},
-                 a.stress);
+    expect_close(
+        {3.1614412663149, -0.075506803665648, 1.6688003332408, 1.1802277145237, -1.6662038322688, 1.0934462649264},
+        a.stress);
     const double row1[6] = {18.472285476257, 6.3923076923077, 6.3923076923077, 1.1802277145237, -1.6662038322688, 0};
     for (int j = 0; j < 6; ++j) {
         EXPECT_NEAR(a.tangent(0, j), row1[j], printed * row1[0]);
@@ -240,8 +239,8 @@ TEST(NeoHookean, TangentAgainstCentralDifferences) {
                 const Answer a = at(kind, props, deformed, 40.0);
                 const double f33 = kind == plane_stress ? 1 + a.state[1] : deformed(2, 2);
                 Numbers tau = a.stress;
-                const double J = kind == plane_stress ? deformed.topLeftCorner<2, 2>().determinant() * f33
-                                                      : deformed.determinant();
+                const double J =
+                    kind == plane_stress ? deformed.topLeftCorner<2, 2>().determinant() * f33 : deformed.determinant();
                 for (double& t : tau) t *= J;
                 return std::pair(tau, J);
             };
@@ -254,12 +253,14 @@ TEST(NeoHookean, TangentAgainstCentralDifferences) {
                 const Numbers plus = kirchhoff((Matrix3d::Identity() + d) * f).first;
                 const Numbers minus = kirchhoff((Matrix3d::Identity() - d) * f).first;
                 for (int row = 0; row < components(kind); ++row)
-                    EXPECT_NEAR(a.tangent(row, column), (plus[std::size_t(row)] - minus[std::size_t(row)]) / (2 * h * J),
+                    EXPECT_NEAR(a.tangent(row, column),
+                                (plus[std::size_t(row)] - minus[std::size_t(row)]) / (2 * h * J),
                                 1e-8 * a.tangent.cwiseAbs().maxCoeff());
             }
             const auto heated = [&](double dtemp) { return at(kind, props, f, dtemp).stress; };
             for (std::size_t i = 0; i < a.stress.size(); ++i)
-                EXPECT_NEAR(a.ddsddt[i], (heated(40.0 + 1e-2)[i] - heated(40.0 - 1e-2)[i]) / 2e-2, 1e-9 * E * 1e-3 * 10);
+                EXPECT_NEAR(a.ddsddt[i], (heated(40.0 + 1e-2)[i] - heated(40.0 - 1e-2)[i]) / 2e-2,
+                            1e-9 * E * 1e-3 * 10);
         }
 }
 
@@ -282,8 +283,9 @@ TEST(NeoHookean, AnyNumberOfIncrementsGivesTheSameAnswer) {
     UmatPoint many = material(plane_stress, {E, nu, 2, 1e-3});
     Answer last;
     for (int i = 1; i <= 64; ++i)
-        last = many.advance(
-            {.dtemp = 100.0 / 64, .dfgrd1 = Matrix3d(Matrix3d::Identity() + (in_plane - Matrix3d::Identity()) * (i / 64.0))});
+        last =
+            many.advance({.dtemp = 100.0 / 64,
+                          .dfgrd1 = Matrix3d(Matrix3d::Identity() + (in_plane - Matrix3d::Identity()) * (i / 64.0))});
     const Answer one = at(plane_stress, {E, nu, 2, 1e-3}, in_plane, 100.0);
     expect_close(one.stress, last.stress, 1e-14);
     EXPECT_NEAR(one.state[1], last.state[1], 1e-15);
@@ -314,7 +316,8 @@ TEST(NeoHookean, SheetIsASolidWithoutStress33) {
 // --- 1.1: what of DFGRD1 is read ---------------------------------------------------------------------------------
 
 TEST(NeoHookean, DeformationGradientIsReadInFortranOrder) {
-    const Answer a = at(solid, {E, nu}, simple_shear(0.4)), transposed = at(solid, {E, nu}, simple_shear(0.4).transpose());
+    const Answer a = at(solid, {E, nu}, simple_shear(0.4)),
+                 transposed = at(solid, {E, nu}, simple_shear(0.4).transpose());
     EXPECT_NEAR(a.stress[0], G * 0.16, 1e-15 * E);
     EXPECT_EQ(a.stress[1], 0.0);
     EXPECT_EQ(transposed.stress[0], 0.0);
@@ -363,10 +366,9 @@ TEST(NeoHookean, ExplicitAnswerIsTheImplicitOneAtTheStretch) {
             EXPECT_EQ(block.run().stops, 0);
             for (std::size_t p = 0; p < block.points.size(); ++p) {
                 const VumatPoint& point = block.points[p];
-                const Answer a = material(kind, props).advance(
-                    {.dtemp = 10.0, .dpred = {0.5}, .dfgrd1 = before[p].stretch});
-                for (std::size_t i = 0; i < a.stress.size(); ++i)
-                    EXPECT_NEAR(point.stress[i], a.stress[i], 1e-14 * E);
+                const Answer a =
+                    material(kind, props).advance({.dtemp = 10.0, .dpred = {0.5}, .dfgrd1 = before[p].stretch});
+                for (std::size_t i = 0; i < a.stress.size(); ++i) EXPECT_NEAR(point.stress[i], a.stress[i], 1e-14 * E);
                 EXPECT_NEAR(point.state[0], a.state[0], 1e-17);
                 EXPECT_NEAR(point.state[1], a.state[1], 4e-15);
                 EXPECT_NEAR(point.internal_energy, a.sse / 2.0, 1e-14 * E);

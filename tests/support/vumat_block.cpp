@@ -31,9 +31,13 @@ std::string explicit_name(const std::string& name, AnalysisKind kind) {
 }  // namespace
 
 VumatBlock::VumatBlock(std::string material_name, AnalysisKind kind, Numbers props)
-    : name_(explicit_name(material_name, kind)), kind_(kind), props_(std::move(props)) {
-    initial_state_ = UmatPoint(std::move(material_name), kind, props_).state();
-}
+    : VumatBlock(UmatPoint(std::move(material_name), kind, std::move(props))) {}
+
+VumatBlock::VumatBlock(const UmatPoint& prototype)
+    : name_(explicit_name(prototype.name(), prototype.kind())),
+      kind_(prototype.kind()),
+      props_(prototype.props()),
+      initial_state_(prototype.state()) {}
 
 VumatPoint VumatBlock::fresh_point() const {
     VumatPoint point;

@@ -21,6 +21,8 @@ struct VumatPoint {
 class VumatBlock {
   public:
     VumatBlock(std::string material_name, AnalysisKind kind, Numbers props);
+    // Of the prototype's material, with as many state variables.
+    explicit VumatBlock(const UmatPoint& prototype);
 
     // A point in the initial state, as UmatPoint makes it.
     VumatPoint fresh_point() const;

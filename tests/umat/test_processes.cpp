@@ -12,15 +12,15 @@
 
 namespace {
 
-struct Run {
+struct Outcome {
     int status = -1;
     std::string output;
 };
 
 // By the shell: `environment` in front, `redirection` behind.
-Run run(const std::string& environment, const std::string& arguments, const std::string& redirection) {
+Outcome run(const std::string& environment, const std::string& arguments, const std::string& redirection) {
     const std::string command = environment + " '" LODE_BARE_HOST "' " + arguments + " " + redirection;
-    Run result;
+    Outcome result;
     FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return result;
     char text[4096];
@@ -33,7 +33,7 @@ Run run(const std::string& environment, const std::string& arguments, const std:
 // Exit status 65 is EX_DATAERR.
 TEST(BareHost, RefusalEndsTheProcessWithAMessage) {
     for (const char* entry : {"umat", "vumat"}) {
-        const Run refused = run("", std::string("refuse ") + entry, "2>&1 >/dev/null");
+        const Outcome refused = run("", std::string("refuse ") + entry, "2>&1 >/dev/null");
         EXPECT_EQ(refused.status, 65) << entry;
         EXPECT_NE(refused.output.find("ERROR: "), std::string::npos) << refused.output;
         EXPECT_NE(refused.output.find("NO_SUCH_MODEL"), std::string::npos) << refused.output;
@@ -42,7 +42,7 @@ TEST(BareHost, RefusalEndsTheProcessWithAMessage) {
 }
 
 TEST(BareHost, SweepIsSilentOnStandardError) {
-    const Run swept = run("", "sweep", "2>/dev/null");
+    const Outcome swept = run("", "sweep", "2>/dev/null");
     EXPECT_EQ(swept.status, 0);
     EXPECT_GT(swept.output.size(), 1000u);
 }
@@ -75,7 +75,7 @@ TEST(InstructionSets, AgreeToRounding) {
     std::vector<Number> reference;
     std::istringstream list(variants);
     for (std::string variant; std::getline(list, variant, ',');) {
-        const Run swept = run("LODE_ISA=" + variant, "sweep", "2>/dev/null");
+        const Outcome swept = run("LODE_ISA=" + variant, "sweep", "2>/dev/null");
         ASSERT_EQ(swept.status, 0) << variant;
         const std::vector<Number> numbers = parse(swept.output);
         if (reference.empty()) {
