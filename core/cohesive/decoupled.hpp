@@ -13,7 +13,7 @@ struct DecoupledInterface {
     ShearLaw shear;
     double p, q;  // exponents of the criterion, p <= 0: none
     Contact contact;
-    double thickness;
+    double thickness, inverse_thickness;
 
     // DDSDDE of the virgin interface.
     template <AnalysisKind kind>
@@ -46,7 +46,7 @@ struct DecoupledInterface {
 
         // 2. failure, at the point of the path where it happens
         result.failed = failed_before;
-        Mask<Real> fails = past_end(result.dn, result.dt) >= zero;
+        Mask<Real> fails = result.dn >= Real(normal.end) || result.dt >= Real(shear.end);
         if (p > 0.0 && any(opens || slides))
             fails = fails || ((opens || slides) && released_fraction(result.GI, result.GII) >= one);
         fails = fails && !failed_before;
@@ -62,7 +62,7 @@ struct DecoupledInterface {
         result.shear_damage = select(result.failed, one, min(1.0 - intact_t, largest_damage));
         result.normal_stiffness = select(result.failed, zero, normal.stiffness * intact_n);
         result.shear_stiffness = select(result.failed, zero, shear.stiffness * intact_t);
-        if (!result.finish(path, contact, thickness, point)) return;
+        if (!result.finish(path, contact, inverse_thickness, point)) return;
 
         if constexpr (wants_tangent<T>) {
             // 3. S' where damage grew, S/delta elsewhere; in shear along and across the direction of sliding
@@ -94,15 +94,10 @@ struct DecoupledInterface {
         return select(positive, pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));
     }
 
-    // Not negative from the end of one law on.
-    template <class Real>
-    Real past_end(const Real& dn, const Real& dt) const {
-        return max((dn - normal.end) * (1.0 / normal.end), (dt - shear.end) * (1.0 / shear.end));
-    }
     // (GI/GIc)^p + (GII/GIIc)^q
     template <class Real>
     Real released_fraction(const Real& GI, const Real& GII) const {
-        return power(GI * (1.0 / normal.toughness), p) + power(GII * (1.0 / shear.toughness), q);
+        return power(GI * normal.inverse_toughness, p) + power(GII * shear.inverse_toughness, q);
     }
 
     // The first s of the path at which one of the conditions of failure holds; they grow with s, since u_n and u_t are
@@ -122,16 +117,15 @@ struct DecoupledInterface {
             const Real dn_rate = select(opening > dn_old, path.change[0], zero);
             const Real dt_rate = select(sliding > dt_old, along / max(sliding, dt_old), zero);
 
+            const Real end_n = (dn - normal.end) * normal.inverse_end, end_t = (dt - shear.end) * shear.inverse_end;
             Residual<Real> r;
-            r.value = past_end(dn, dt);
-            r.slope = select((dn - normal.end) * shear.end > (dt - shear.end) * normal.end,
-                             dn_rate * (1.0 / normal.end), dt_rate * (1.0 / shear.end));
+            r.value = max(end_n, end_t);
+            r.slope = select(end_n > end_t, dn_rate * normal.inverse_end, dt_rate * shear.inverse_end);
             if (p > 0.0) {
                 const Real GI = released(normal, dn), GII = released(shear, dt);
                 const Real criterion = released_fraction(GI, GII) - 1.0;
                 const auto rate = [](const auto& law, const Real& delta, const Real& G, double exponent) {
-                    const double scale = 1.0 / law.toughness;
-                    return exponent * scale * power(G * scale, exponent - 1.0) *
+                    return exponent * law.inverse_toughness * power(G * law.inverse_toughness, exponent - 1.0) *
                            law.release_rate(min(delta, Real(law.end)));
                 };
                 r.slope = select(criterion > r.value,

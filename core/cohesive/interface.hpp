@@ -102,7 +102,7 @@ struct InterfaceResult {
     }
 
     // False, with the point marked as failed, where the work overflows.
-    bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double thickness,
+    bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double per_thickness,
                 Point<kind, Real>& point) const {
         namespace index = interface_state;
         constexpr int n = components(kind);
@@ -124,9 +124,8 @@ struct InterfaceResult {
             return false;
         }
         for (int i = 0; i < n; ++i) point.stress[i] = traction[i];
-        const double per_volume = 1.0 / thickness;
-        point.elastic_energy = 0.5 * per_volume * stored;
-        point.plastic_dissipation = per_volume * (GI + GII + Gdrop - released_before);
+        point.elastic_energy = 0.5 * per_thickness * stored;
+        point.plastic_dissipation = per_thickness * (GI + GII + Gdrop - released_before);
 
         for (int i = 0; i < n; ++i) state.set(index::un + i, path.end[i]);
         if constexpr (n == 2) state.set(index::us2, Real(0.0));

@@ -6,7 +6,7 @@
 //     slope(delta)             S'
 //     released_energy(delta)   Omega = int_0^delta S - S delta/2, which ends at the toughness Gc
 //     release_rate(delta)      dOmega/ddelta = (S - delta S')/2, not negative: damage only grows
-// and the members stiffness (k), elastic_limit (u_e), end (u_c) and toughness (Gc).
+// and the members stiffness (k), elastic_limit (u_e), end (u_c), toughness (Gc) and the inverses of the last two.
 #pragma once
 
 #include "lode/material/properties.hpp"
@@ -15,7 +15,7 @@ namespace lode {
 
 // Code 1, linear softening: S = sig (u_c - delta)/w with w = u_c - u_e.
 struct Sawtooth {
-    double stiffness, toughness, elastic_limit, end;
+    double stiffness, toughness, elastic_limit, end, inverse_end, inverse_toughness;
 
     // Reads k, sig, Gc from PROPS(first), (first + 1), (first + 2); `mode` is "n" or "t" for the message.
     Sawtooth(const Properties& p, int first, const char* mode)
@@ -23,8 +23,11 @@ struct Sawtooth {
           toughness(p[first + 2]),
           elastic_limit(p[first + 1] / stiffness),
           end(2.0 * toughness / p[first + 1]),
+          inverse_end(1.0 / end),
+          inverse_toughness(1.0 / toughness),
           range_(end - elastic_limit),
-          slope_(-p[first + 1] / range_) {
+          slope_(-p[first + 1] / range_),
+          release_rate_(toughness / range_) {
         const double sig = p[first + 1], elastic_energy = 0.5 * sig * sig / stiffness;
         if (!(toughness > elastic_energy) || !(end > elastic_limit))
             p.refuse(first + 2, std::string("greater than sig_") + mode + "^2/(2 k_" + mode +
@@ -43,15 +46,15 @@ struct Sawtooth {
     }
     template <class Real>
     Real released_energy(const Real& delta) const {
-        return toughness * ((delta - elastic_limit) / range_);
+        return release_rate_ * (delta - elastic_limit);
     }
     template <class Real>
     Real release_rate(const Real&) const {
-        return Real(toughness / range_);
+        return Real(release_rate_);
     }
 
   private:
-    double range_, slope_;  // w, S'
+    double range_, slope_, release_rate_;  // w, S', phi/2
 };
 
 }  // namespace lode

@@ -118,8 +118,8 @@ struct NeoHookean {
         if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);
 
         if constexpr (is_plane_stress) {
-            const Real f33m1_old = f33m1, d = k.h(2, 2);
-            f33m1 = d + expm1(e) * (1.0 + d);
+            const Real f33m1_old = f33m1;
+            f33m1 = residual.total_thickness_change(k.h(2, 2), e);
             if (point.wants_thickness_strain)
                 point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
         }

@@ -19,12 +19,23 @@ struct ResidualStrain {
         return e;
     }
 
-    // Kinematics of F*; without residual strain that of F, at no cost.
+    // True where there is none and there will be none: nothing needs to be computed for it.
+    template <class Real>
+    bool is_absent(const Real& e) const {
+        return thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0));
+    }
+
+    // Kinematics of F*.
     template <AnalysisKind kind, class Real>
     Kinematics<kind, Real> mechanical(const Increment<kind, Real>& increment, const Real& e) const {
         const Matrix3<Real> f = increment.deformation_gradient();
-        if (thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0))) return kinematics<kind>(f);
-        return kinematics<kind>(f, e);
+        return is_absent(e) ? kinematics<kind>(f) : kinematics<kind>(f, e);
+    }
+
+    // F33 - 1 from d = F33* - 1, plane stress.
+    template <class Real>
+    Real total_thickness_change(const Real& d, const Real& e) const {
+        return is_absent(e) ? d : d + expm1(e) * (1.0 + d);
     }
 };
 

@@ -47,14 +47,14 @@ struct CamClay {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         State<Real>& state = point.state;
 
         // The elastic strain at the start, in the frame of the end.
         CamClayPath<kind, Real> start;
         Stress<kind, Real> elastic = elastic_strain<kind, Real>(state);
         if constexpr (!is_batch<Real>)
-            if (increment.has_rotation()) elastic = rotate<kind, Real>(elastic, increment.rotation());
+            if (turns(increment)) elastic = rotate<kind, Real>(elastic, increment.rotation());
         start.v = -trace(elastic);
         start.e = deviator(elastic);
         start.pc = state[cam_clay::PC];
@@ -75,11 +75,12 @@ struct CamClay {
         if (!guard(increment, start, dv, de, clipped, point)) return;
 
         if (substeps.is_single_step()) {
-            const CamClayPath<kind, Real> end = substeps.single_step(start, dv, de);
-            if (!accept(increment, end, clipped, point)) return;
+            CamClayPath<kind, Real> path = start;
+            substeps.advance(path, dv, de);
+            if (!accept(increment, path, clipped, point)) return;
             if constexpr (wants_tangent<T>) {
-                substeps.set_tangent(end.last, plasticity.linearised(end.last), end.e, tangent);
-                complete_tangent(end.last, tangent);
+                substeps.set_tangent(path.last, plasticity.linearised(path.last), path.e, tangent);
+                complete_tangent(path.last, tangent);
             }
         } else {
             CamClaySensitivity<kind, wants_tangent<T>> sensitivity;
@@ -103,6 +104,13 @@ struct CamClay {
     static constexpr double largest_extension = 600.0;  // in units of kappa, from where pc would be reached
     static constexpr double largest_exponent = 660.0;   // exp() of it and of its negative are normal numbers
 
+    // DROT is there and not the identity.
+    template <AnalysisKind kind, class Real>
+    static bool turns(const Increment<kind, Real>& increment) {
+        const double* r = increment.rotation_source;
+        return r != nullptr && !(r[0] == 1.0 && r[4] == 1.0 && r[8] == 1.0 && r[1] == 0.0 && r[2] == 0.0 &&
+                                 r[3] == 0.0 && r[5] == 0.0 && r[6] == 0.0 && r[7] == 0.0);
+    }
     template <AnalysisKind kind, class Real>
     static Stress<kind, Real> elastic_strain(const State<Real>& state) {
         Stress<kind, Real> e;
@@ -112,7 +120,7 @@ struct CamClay {
 
     // Stress, energies and state at the end; false where the stress is not finite.
     template <AnalysisKind kind, class Real>
-    bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end, const Mask<Real>& clipped,
+    LODE_INLINE bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end, const Mask<Real>& clipped,
                 Point<kind, Real>& point) const {
         const CamClayStep<Real>& last = end.last;
         Real pore_stress = Real(0.0);
@@ -160,7 +168,7 @@ struct CamClay {
 
     // "Guards": UMAT asks for a smaller increment, VUMAT clips it. False where the increment cannot be done.
     template <AnalysisKind kind, class Real>
-    bool guard(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& start, Real& dv,
+    LODE_INLINE bool guard(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& start, Real& dv,
                Stress<kind, Real>& de, Mask<Real>& clipped, Point<kind, Real>& point) const {
         Real largest = abs(increment.strain_increment[0]);
         for (int i = 1; i < components(kind); ++i) largest = max(largest, abs(increment.strain_increment[i]));

@@ -55,7 +55,7 @@ struct CamClayReturn {
 
     // Steps 2 to 8. `log_pc` = ln(pc/p_ref) at the start.
     template <class Real>
-    CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc, const Real& log_pc) const {
+    LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc, const Real& log_pc) const {
         const Real zero(0.0);
         const Real over = overshoot(v_trial, log_pc);
         const Real v_max = (v_trial * inverse_theta + log_pc) * inverse_w;
@@ -120,7 +120,7 @@ struct CamClayReturn {
     }
 
     // "Consistent tangent": the linearised system of three equations, the third one divided by pc.
-    CamClayLinearStep linearised(const CamClayStep<double>& e) const {
+    LODE_INLINE CamClayLinearStep linearised(const CamClayStep<double>& e) const {
         if (!e.plastic) return {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, e.mu};
         const double W_vv = e.p * elasticity.inverse_kappa, W_vs = elasticity.coupling_modulus(e.A, e.s);
         const double inverse_pc = 1.0 / e.pc;

@@ -41,12 +41,29 @@ struct CamClaySubsteps {
     static constexpr int most_steps = 1024;
 
     bool is_single_step() const { return count == 1 && tolerance == 0.0; }
+    // One backward Euler step over the strain (dv, de).
     template <AnalysisKind kind, class Real>
-    CamClayPath<kind, Real> single_step(const CamClayPath<kind, Real>& start, const Real& dv,
-                                        const Stress<kind, Real>& de) const {
-        CamClaySensitivity<kind, false> none;
-        return in_steps(1, start, dv, de, none);
+    LODE_INLINE void advance(CamClayPath<kind, Real>& path, const Real& dv, const Stress<kind, Real>& de) const {
+        path.e = path.e + de;
+        const CamClayStep<Real> step =
+            plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc);
+        path.last = step;
+        path.v = step.v;
+        path.pc = step.pc;
+        path.log_pc = step.log_pc;
+        if (!any(step.plastic)) return;
+        path.e = step.shear_ratio * path.e;
+        path.compaction = path.compaction + step.plastic_compaction;
+        path.plastic_shear = path.plastic_shear + (2.0 * plasticity.inverse_M_square) * (step.dgamma * step.q);
+        path.dissipation = path.dissipation + step.dgamma * step.p * step.pc;
+        Real zone = select(step.h > Real(0.0), Real(1.0), Real(2.0));
+        if (plasticity.elasticity.alpha > 0.0) {
+            const Mask<Real> convex = plasticity.elasticity.convexity(step.A, step.s) > Real(0.0);
+            zone = zone + select(convex, Real(0.0), Real(10.0));
+        }
+        path.zone = select(step.plastic, zone, path.zone);
     }
+
     template <AnalysisKind kind, class Real, bool wanted>
     CamClayPath<kind, Real> several_steps(const CamClayPath<kind, Real>& start, const Real& dv,
                                           const Stress<kind, Real>& de,
@@ -98,27 +115,12 @@ struct CamClaySubsteps {
                                      CamClaySensitivity<kind, wanted>& sensitivity) const {
         CamClayPath<kind, Real> path = start;
         const double part = 1.0 / steps;
+        const Real dv_part = part * dv;
+        const Stress<kind, Real> de_part = part * de;
         for (int k = 0; k < steps; ++k) {
-            path.e = path.e + part * de;
-            const Real s_trial = shear_invariant(path.e);
-            path.last = plasticity.step<Real>(path.v + part * dv, s_trial, path.pc, path.log_pc);
-            const CamClayStep<Real>& step = path.last;
-            if constexpr (wanted)
-                carry(sensitivity, step, path.e, s_trial, part, k == 0);
-            path.v = step.v;
-            path.pc = step.pc;
-            path.log_pc = step.log_pc;
-            path.e = step.shear_ratio * path.e;
-            if (!any(step.plastic)) continue;
-            path.compaction = path.compaction + step.plastic_compaction;
-            path.plastic_shear = path.plastic_shear + (2.0 * plasticity.inverse_M_square) * (step.dgamma * step.q);
-            path.dissipation = path.dissipation + step.dgamma * step.p * step.pc;
-            Real zone = select(step.h > Real(0.0), Real(1.0), Real(2.0));
-            if (plasticity.elasticity.alpha > 0.0) {
-                const Mask<Real> convex = plasticity.elasticity.convexity(step.A, step.s) > Real(0.0);
-                zone = zone + select(convex, Real(0.0), Real(10.0));
-            }
-            path.zone = select(step.plastic, zone, path.zone);
+            const Stress<kind, Real> trial = path.e + de_part;
+            advance(path, dv_part, de_part);
+            if constexpr (wanted) carry(sensitivity, path.last, trial, part, k == 0);
         }
         return path;
     }
@@ -165,8 +167,9 @@ struct CamClaySubsteps {
     // The chain rule over one more step.
     template <AnalysisKind kind>
     void carry(CamClaySensitivity<kind, true>& s, const CamClayStep<double>& step, const Stress<kind, double>& trial,
-               double s_trial, double part, bool first) const {
+               double part, bool first) const {
         if (first) s = {};
+        const double s_trial = shear_invariant(trial);
         const CamClayLinearStep l = plasticity.linearised(step);
         const Stress<kind, double> direction = (s_trial > 1e-15 ? 1.0 / s_trial : 0.0) * trial;  // sqrt(3/2) n
         for (int column = 0; column < components(kind); ++column) {
