@@ -44,6 +44,13 @@ void install_utility_handlers() {
 #endif
 }
 
+void set_job([[maybe_unused]] const std::string& name, [[maybe_unused]] const std::string& output_directory) {
+#ifdef LODE_HOST_HAS_UTILITY
+    lode_utility_set_job_name(name.c_str());
+    lode_utility_set_output_directory(output_directory.c_str());
+#endif
+}
+
 bool run_guarded(void (*call)(void*), void* data) {
     std::jmp_buf here;
     std::jmp_buf* const outer = landing;

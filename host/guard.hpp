@@ -9,6 +9,9 @@ namespace lode::host {
 // Takes over the utility routines' messages and exits. Call once, before the first library is loaded.
 void install_utility_handlers();
 
+// What GETJOBNAME and GETOUTDIR answer.
+void set_job(const std::string& name, const std::string& output_directory);
+
 // Runs `call`; false if the library asked for the end of the analysis meanwhile. The library's stack frames are
 // then left without unwinding, as they would be in a host whose XIT does not return.
 bool run_guarded(void (*call)(void*), void* data);

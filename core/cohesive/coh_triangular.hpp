@@ -66,23 +66,22 @@ struct CohTriangular {
             "- The modes do not weaken each other before failure: for mixed-mode work a coupled law is better.\n",
     };
 
-    explicit CohTriangular(const Properties& p) : interface {
-        Sawtooth(p, 1, "n"), Sawtooth(p, 4, "t"), p[7], p[7], Contact(p.code(8), p[9], p[1]), p[10]
-    } {
-    }
+    explicit CohTriangular(const Properties& p)
+        : law{Sawtooth(p, 1, "n"), Sawtooth(p, 4, "t"), p[7], p[7], Contact(p.code(8), p[9], p[1]), p[10],
+              1.0 / p[10]} {}
 
     int required_state(AnalysisKind) const { return interface_state::count; }
 
     template <AnalysisKind kind>
     void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& tangent) const {
-        interface.initial_stiffness(tangent);
+        law.initial_stiffness(tangent);
     }
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        interface.update(increment, point, tangent);
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        law.update(increment, point, tangent);
     }
 
-    DecoupledInterface<Sawtooth, Sawtooth> interface;
+    DecoupledInterface<Sawtooth, Sawtooth> law;
 };
 
 }  // namespace lode

@@ -24,7 +24,7 @@ struct DecoupledInterface {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         namespace index = interface_state;
         using Path = SeparationPath<kind, Real>;
         const Real zero(0.0), one(1.0);

@@ -102,8 +102,8 @@ struct InterfaceResult {
     }
 
     // False, with the point marked as failed, where the work overflows.
-    bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double per_thickness,
-                Point<kind, Real>& point) const {
+    LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double per_thickness,
+                            Point<kind, Real>& point) const {
         namespace index = interface_state;
         constexpr int n = components(kind);
         State<Real>& state = point.state;

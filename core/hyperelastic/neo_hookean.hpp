@@ -84,7 +84,7 @@ struct NeoHookean {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
         constexpr int normals = normal_components(kind);
         State<Real>& state = point.state;
@@ -135,8 +135,8 @@ struct NeoHookean {
   private:
     // C = (G/J) M(B) + (J U')' 1 (x) 1, and its companion for temperature (1.8).
     template <AnalysisKind kind>
-    void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v,
-                     const Stress<kind, double>& stress, Tangent<kind>& tangent) const {
+    LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v,
+                                 const Stress<kind, double>& stress, Tangent<kind>& tangent) const {
         constexpr int normals = normal_components(kind);
         const double g = shear * v.inverse;
         auto left_cauchy_green = k.b;
@@ -170,7 +170,7 @@ struct NeoHookean {
     // F33* - 1 of plane stress, G b33 + J U' = 0, with q and p = 1 + q the change and ratio of the area (section 3.1).
     // False where there is no solution, which takes NU < 0.
     template <class Real>
-    Mask<Real> solve_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k) const {
+    LODE_INLINE Mask<Real> solve_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k) const {
         const double G = shear, lambda = dilatation.modulus;
         const Real q = k.j, p = k.jacobian, p2 = p * p;
         if (dilatation.option == 0) {  // (9.68): linear in b33

@@ -120,8 +120,8 @@ struct CamClay {
 
     // Stress, energies and state at the end; false where the stress is not finite.
     template <AnalysisKind kind, class Real>
-    LODE_INLINE bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end, const Mask<Real>& clipped,
-                Point<kind, Real>& point) const {
+    LODE_INLINE bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end,
+                            const Mask<Real>& clipped, Point<kind, Real>& point) const {
         const CamClayStep<Real>& last = end.last;
         Real pore_stress = Real(0.0);
         if (biot != 0.0) pore_stress = biot * increment.field_end(1);
@@ -169,7 +169,7 @@ struct CamClay {
     // "Guards": UMAT asks for a smaller increment, VUMAT clips it. False where the increment cannot be done.
     template <AnalysisKind kind, class Real>
     LODE_INLINE bool guard(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& start, Real& dv,
-               Stress<kind, Real>& de, Mask<Real>& clipped, Point<kind, Real>& point) const {
+                           Stress<kind, Real>& de, Mask<Real>& clipped, Point<kind, Real>& point) const {
         Real largest = abs(increment.strain_increment[0]);
         for (int i = 1; i < components(kind); ++i) largest = max(largest, abs(increment.strain_increment[i]));
         // w (v_max - v), linear in the increment

@@ -22,8 +22,8 @@ inline constexpr lode_parameter parameters[] = {
     required("pc0", "preconsolidation pressure, or overconsolidation ratio", "stress or -", above(0.0),
              "pcmode 0: a pressure; pcmode 1: a ratio >= 1"),
     optional("pcmode", "meaning of pc0", "code", code(0, 1), 0.0, "0 pressure; 1 overconsolidation ratio"),
-    optional_or_zero("p_ini", "initial effective pressure where the host gives no stress", "stress", above(0.0),
-                     0.0, "missing or 0: p_ref"),
+    optional_or_zero("p_ini", "initial effective pressure where the host gives no stress", "stress", above(0.0), 0.0,
+                     "missing or 0: p_ref"),
     optional("biot", "Biot coefficient", "-", between(0.0, 1.0), 0.0,
              "the pore pressure is field 1, positive in compression"),
     optional("alphaT", "linear thermal expansion, drained", "1/temp", any_value(), 0.0),
@@ -52,10 +52,9 @@ inline constexpr double coupled[] = {90.0, 0.018, 0.13, 1.05, 2700.0, 60.0, 100.
 inline constexpr double stiff[] = {100.0, 0.01, 0.08, 0.9, 5000.0, 60.0, 2.0, 1.0, 100.0, 1.0, 1e-5, 2.0, 1e-2};
 inline constexpr lode_sample samples[] = {
     {"CLAY", "lightly overconsolidated clay, kPa", clay, count_of(clay), 0.02, served_kinds},
-    {"COUPLED", "clay whose shear modulus grows with pressure, kPa", coupled, count_of(coupled), 0.02,
-     served_kinds},
-    {"OCR2", "overconsolidation ratio 2, pore pressure, thermal expansion, error-controlled substeps, kPa, 1/K",
-     stiff, count_of(stiff), 0.02, served_kinds},
+    {"COUPLED", "clay whose shear modulus grows with pressure, kPa", coupled, count_of(coupled), 0.02, served_kinds},
+    {"OCR2", "overconsolidation ratio 2, pore pressure, thermal expansion, error-controlled substeps, kPa, 1/K", stiff,
+     count_of(stiff), 0.02, served_kinds},
 };
 inline constexpr lode_algorithm algorithms[] = {
     {"backward Euler", 12, 1.0, 1.0},
@@ -66,9 +65,10 @@ inline constexpr lode_model description = {
     .keyword = "CAM_CLAY",
     .title = "Modified Cam-clay with coupled hyperelasticity",
     .family = "soil",
-    .purpose = "Rate-independent elastoplastic law for clays and other compressible granular media: pressure "
-               "dependent hyperelasticity, an elliptic yield surface that grows with plastic compaction, "
-               "associated flow.",
+    .purpose =
+        "Rate-independent elastoplastic law for clays and other compressible granular media: pressure "
+        "dependent hyperelasticity, an elliptic yield surface that grows with plastic compaction, "
+        "associated flow.",
     .source = "Banerjee, Cam-Clay model based on Borja et al. 1997, sections 2.1-3.4 (with corrected signs)",
     .kinds = served_kinds,
     .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_HISTORY_STRESS,

@@ -61,8 +61,7 @@ struct CamClayInitialState {
         if (pc < (1.0 - 1e-12) * p_fit)
             remarks.warning = "CAM_CLAY: the initial stress is outside the yield surface, which is enlarged to it";
         pc = max(pc, p_fit);
-        if (misses_critical_state(pc) && !misses_critical_state(expected_pc()))
-            remarks.warning = no_critical_state;
+        if (misses_critical_state(pc) && !misses_critical_state(expected_pc())) remarks.warning = no_critical_state;
         return remarks;
     }
 
@@ -108,8 +107,7 @@ struct CamClayInitialState {
         std::string text;
         if (misses_critical_state(expected_pc()))
             text += std::string(no_critical_state) + " = " + format_number(expected_pc()) + "\n";
-        if (has_negative_poisson(p_ini))
-            text += std::string(negative_poisson) + " = " + format_number(p_ini) + "\n";
+        if (has_negative_poisson(p_ini)) text += std::string(negative_poisson) + " = " + format_number(p_ini) + "\n";
         return text;
     }
 

@@ -13,10 +13,10 @@ namespace lode {
 template <class Real>
 struct CamClayStep {
     Real v, s, A, mu, p, q, pc;
-    Real log_pc;                 // ln(pc/p_ref)
-    Real plastic_compaction;     // dv^p = dgamma h
-    Real dgamma, h;              // h = df/dp = 2p - pc
-    Real shear_ratio;            // dev eps^e = shear_ratio * its trial value
+    Real log_pc;              // ln(pc/p_ref)
+    Real plastic_compaction;  // dv^p = dgamma h
+    Real dgamma, h;           // h = df/dp = 2p - pc
+    Real shear_ratio;         // dev eps^e = shear_ratio * its trial value
     Mask<Real> plastic;
 };
 
@@ -30,8 +30,8 @@ struct CamClayReturn {
     CamClayElasticity elasticity;
     double M, theta;  // theta = lambda - kappa
     double inverse_theta, w, inverse_w;
-    double half_delta;       // w delta = ln 2: critical state for alpha = 0; h > 0 wherever delta is less
-    double flow_factor;      // 6/M^2
+    double half_delta;   // w delta = ln 2: critical state for alpha = 0; h > 0 wherever delta is less
+    double flow_factor;  // 6/M^2
     double inverse_M_square;
     double strain_per_stress;  // alpha = 0: s = strain_per_stress * A sqrt(r) on the curve
 
@@ -55,7 +55,8 @@ struct CamClayReturn {
 
     // Steps 2 to 8. `log_pc` = ln(pc/p_ref) at the start.
     template <class Real>
-    LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc, const Real& log_pc) const {
+    LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc,
+                                       const Real& log_pc) const {
         const Real zero(0.0);
         const Real over = overshoot(v_trial, log_pc);
         const Real v_max = (v_trial * inverse_theta + log_pc) * inverse_w;
@@ -87,7 +88,8 @@ struct CamClayReturn {
         Real delta = zero, s = zero, A = A_top, r = zero;
         if (any(sheared)) {
             const Real r_top = select(over < zero, pc / A_top - 1.0, zero);
-            const CurvePoint<Real> at = solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared);
+            const CurvePoint<Real> at =
+                solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared);
             delta = select(sheared, at.zeta * at.zeta, zero);
             s = select(sheared, at.s, zero);
             A = select(sheared, at.A, A);
@@ -98,8 +100,8 @@ struct CamClayReturn {
         const Real compaction = over + delta;
         // Step 8: at the critical state compaction/h is 0/0.
         const Mask<Real> by_volume = isotropic || abs(h) > 0.5 * pc_new;
-        const Real dgamma = positive_part(select(by_volume, compaction, s_trial - s) /
-                                          select(by_volume, h, flow_factor * mu * s));
+        const Real dgamma =
+            positive_part(select(by_volume, compaction, s_trial - s) / select(by_volume, h, flow_factor * mu * s));
 
         end.v = select(end.plastic, v_max - delta, end.v);
         end.s = select(end.plastic, s, end.s);
@@ -113,8 +115,8 @@ struct CamClayReturn {
         end.dgamma = select(end.plastic, dgamma, zero);
         end.h = select(end.plastic, h, zero);
         // s/s_tr, on the axis its limit
-        const Real ratio = select(isotropic, Real(1.0), s) /
-                           select(isotropic, 1.0 + flow_factor * mu * dgamma, s_trial);
+        const Real ratio =
+            select(isotropic, Real(1.0), s) / select(isotropic, 1.0 + flow_factor * mu * dgamma, s_trial);
         end.shear_ratio = select(end.plastic, ratio, end.shear_ratio);
         return end;
     }
@@ -151,7 +153,7 @@ struct CamClayReturn {
 
   private:
     static constexpr int most_newton_steps = 10;
-    static constexpr double largest_r = 1e120;
+    static constexpr double largest_r = 1e60;
 
     // A point of the curve f = 0, R there, and their slopes in zeta = sqrt(delta) (steps 5 to 7).
     template <class Real>
@@ -207,12 +209,13 @@ struct CamClayReturn {
             Real sum = B + E;
             const Mask<Real> cancels = B < Real(0.0);
             if (any(cancels)) sum = select(cancels, four_rjj / select(cancels, E - B, Real(1.0)), sum);
-            const Real rg = 2.0 * r / sum, z = j * rg;
+            const Real inverse = 1.0 / (r * (E * sum));
+            const Real rg = 2.0 * r * r * E * inverse, z = j * rg;
             at.s = a * sqrt(rg);
             at.h = A * (1.0 + 2.0 * z - r);
             // d ln z/d delta = d ln(s^2)/d delta
             const Real mu0_share = (4.0 * elasticity.mu0 * inverse_kappa) * inverse_mu;
-            const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) / (2.0 * r * E);
+            const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) * (0.5 * sum * inverse);
             at.s_slope = at.s * rate * zeta;
             h_rate = A * (2.0 * z * rate - (2.0 * inverse_kappa) * (1.0 + z) - inverse_theta * pc_ratio);
         }
@@ -226,8 +229,11 @@ struct CamClayReturn {
     template <class Real>
     CurvePoint<Real> curve_point(const Real& zeta, const Real& v_max, const Real& over, const Real& s_trial) const {
         const Real delta = zeta * zeta;
-        return curve_point<Real>(elasticity.volumetric_pressure(Real(v_max - delta)),
-                                 min(expm1(Real(w * delta)), Real(largest_r)), zeta, over + delta, s_trial);
+        // r = expm1(x); away from the tip the quicker difference has the same digits.
+        const Real x = w * delta;
+        const Real r = all(x > Real(0.1)) ? exp(x) - 1.0 : expm1(x);
+        return curve_point<Real>(elasticity.volumetric_pressure(Real(v_max - delta)), min(r, Real(largest_r)), zeta,
+                                 over + delta, s_trial);
     }
 
     // The solution of R = 0 in the `active` lanes: Newton's method from the point of the curve at the trial volume,
@@ -259,7 +265,8 @@ struct CamClayReturn {
                 const Real side = select(at.residual < Real(0.0), Real(-1e3), Real(1e3));
                 const Real step = select(at.slope > Real(0.0), at.residual / at.slope, side);
                 const Real newton = at.zeta - step, size = abs(step);
-                // What this step leaves, and what first order leaves of the exponentials, is of the order of its square.
+                // What this step leaves, and what first order leaves of the exponentials, is of the order of its
+                // square.
                 const Mask<Real> close = size <= 1e-8 * at.zeta && (w * at.zeta) * size <= Real(1e-8);
                 root.assign(close && !found, at.moved_to(newton));
                 found = found || close;

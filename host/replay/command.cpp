@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "../guard.hpp"
 #include "columns.hpp"
 #include "deck.hpp"
 #include "driver.hpp"
@@ -21,7 +22,7 @@ std::string output_stem(const ReplayOptions& options, const Scenario& scenario) 
     std::filesystem::create_directories(directory, failed);
     if (!std::filesystem::is_directory(directory, failed))
         throw Failure(Status::usage, "cannot make the output directory " + options.output_directory);
-    return (directory / scenario.stem).string();
+    return (directory / scenario.stem).lexically_normal().string();
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -54,6 +55,7 @@ Status replay(const ReplayOptions& options) {
     const Library library(options.library.empty() ? scenario.material.library : options.library);
     resolve(scenario, library);
     const std::string stem = output_stem(options, scenario);
+    set_job(scenario.stem, std::filesystem::absolute(options.output_directory).lexically_normal().string());
     const Plan plan = plan_output(scenario, library, stem);
 
     CsvWriter csv(stem + ".csv", plan.columns);

@@ -57,7 +57,7 @@ void read_initial_state(TableReader& reader, MaterialSpec& material) {
     }
     const auto table = *reader.table("initial_state");
     for (const auto& [name, value] : table.named_numbers()) {
-        if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; })) {
+        if (name.empty() || !std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; })) {
             material.initial_named_state.push_back({{name, table.location(name)}, value});
             continue;
         }

