@@ -37,64 +37,64 @@ enum {
 
 /* Bits of lode_model.traits. */
 enum {
-    LODE_FINITE_STRAIN = 1,      /* reads the deformation gradient and ignores DSTRAN     */
-    LODE_UNSYMMETRIC = 2,        /* DDSDDE is not symmetric: ask the host for that solver */
-    LODE_ROTATES_STATE = 4,      /* tensor-valued STATEV is rotated with DROT             */
-    LODE_USES_CELENT = 8,        /* softening is regularised by the element length        */
-    LODE_ELASTIC = 16,           /* no history: energy is recovered on any closed path    */
-    LODE_HISTORY_STRESS = 32     /* STRESS on entry is ignored, stress follows from STATEV or F */
+    LODE_FINITE_STRAIN = 1,  /* reads the deformation gradient and ignores DSTRAN     */
+    LODE_UNSYMMETRIC = 2,    /* DDSDDE is not symmetric: ask the host for that solver */
+    LODE_ROTATES_STATE = 4,  /* tensor-valued STATEV is rotated with DROT             */
+    LODE_USES_CELENT = 8,    /* softening is regularised by the element length        */
+    LODE_ELASTIC = 16,       /* no history: energy is recovered on any closed path    */
+    LODE_HISTORY_STRESS = 32 /* STRESS on entry is ignored, stress follows from STATEV or F */
 };
 
 typedef struct lode_parameter {
-    const char* symbol;        /* as on the model's page, e.g. "NU"          */
-    const char* name;          /* what it is, e.g. "Poisson's ratio"         */
-    const char* unit;          /* "-" if it has none                         */
-    double lower, upper;       /* +-HUGE_VAL where there is no limit         */
-    double default_value;      /* meaningful with LODE_OPTIONAL              */
+    const char* symbol;   /* as on the model's page, e.g. "NU"          */
+    const char* name;     /* what it is, e.g. "Poisson's ratio"         */
+    const char* unit;     /* "-" if it has none                         */
+    double lower, upper;  /* +-HUGE_VAL where there is no limit         */
+    double default_value; /* meaningful with LODE_OPTIONAL              */
     unsigned flags;
-    const char* note;          /* one sentence more, or ""                   */
+    const char* note; /* one sentence more, or ""                   */
 } lode_parameter;
 
 typedef struct lode_state {
-    const char* name;          /* e.g. "EQPS"                                */
+    const char* name; /* e.g. "EQPS"                                */
     const char* meaning;
     double initial;
 } lode_state;
 
 /* A set of constants that is ready to use: printed as cards, run by the property suite and the benchmarks. */
 typedef struct lode_sample {
-    const char* label;         /* e.g. "STEEL"; the card reads KEYWORD-LABEL */
-    const char* meaning;       /* what it is and in which units              */
+    const char* label;   /* e.g. "STEEL"; the card reads KEYWORD-LABEL */
+    const char* meaning; /* what it is and in which units              */
     const double* constants;
     int constant_count;
-    double strain_scale;       /* a strain (cohesive: a separation) at which the model shows what it is for */
-    unsigned kinds;            /* the kinds this sample makes sense in       */
+    double strain_scale; /* a strain (cohesive: a separation) at which the model shows what it is for */
+    unsigned kinds;      /* the kinds this sample makes sense in       */
 } lode_sample;
 
 /* An integration algorithm that a PROPS entry selects. */
 typedef struct lode_algorithm {
     const char* name;
-    int parameter;             /* 1-based PROPS index that selects it, 0 if there is nothing to select */
-    double value;              /* the value of that entry                    */
-    double order;              /* convergence order in the increment on a non-proportional path; HUGE_VAL if exact */
+    int parameter; /* 1-based PROPS index that selects it, 0 if there is nothing to select */
+    double value;  /* the value of that entry                    */
+    double order;  /* convergence order in the increment on a non-proportional path; HUGE_VAL if exact */
 } lode_algorithm;
 
 typedef struct lode_model {
-    const char* keyword;       /* e.g. "ISO_PLASTIC"                         */
+    const char* keyword; /* e.g. "ISO_PLASTIC"                         */
     const char* title;
-    const char* family;        /* folder under core/                         */
-    const char* purpose;       /* a sentence or two for the reference page   */
-    const char* source;        /* chapter and equations of the source text   */
+    const char* family;  /* folder under core/                         */
+    const char* purpose; /* a sentence or two for the reference page   */
+    const char* source;  /* chapter and equations of the source text   */
     unsigned kinds, traits;
     const lode_parameter* parameters;
     int parameter_count, required_count;
     const lode_state* state;
-    int state_count;           /* entries described                          */
+    int state_count; /* entries described                          */
     const lode_sample* samples;
     int sample_count;
     const lode_algorithm* algorithms;
     int algorithm_count;
-    const char* limits;        /* where the model fails and what it then does; Markdown list */
+    const char* limits; /* where the model fails and what it then does; Markdown list */
 } lode_model;
 
 /* Number of models in this library. */

@@ -86,7 +86,7 @@ struct IsoElastic {
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         if (kind != AnalysisKind::uniaxial && total_law)
             return out_of_line(increment, point, tangent,
-                               [this](const auto& i, auto& p, auto& t) { update_total(i, p, t); });
+                               [this](const auto& i, auto& p, auto& t) { this->update_total(i, p, t); });
         if (has_options) return update_incremental<true>(increment, point, tangent);
         update_incremental<false>(increment, point, tangent);
     }

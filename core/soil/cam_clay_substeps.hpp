@@ -169,8 +169,9 @@ struct CamClaySubsteps {
     void carry(CamClaySensitivity<kind, true>& s, const CamClayStep<double>& step, const Stress<kind, double>& trial,
                double part, bool first) const {
         if (first) s = {};
-        const double s_trial = shear_invariant(trial);
         const CamClayLinearStep l = plasticity.linearised(step);
+        const double s_trial = shear_invariant(trial);
+        const double shear_ratio = l.shear / step.mu;  // s/s_tr, also on the axis
         const Stress<kind, double> direction = (s_trial > 1e-15 ? 1.0 / s_trial : 0.0) * trial;  // sqrt(3/2) n
         for (int column = 0; column < components(kind); ++column) {
             const auto k = static_cast<std::size_t>(column);
@@ -179,7 +180,7 @@ struct CamClaySubsteps {
             const double dv_trial = -trace(x), ds_trial = (2.0 / 3.0) * double_contraction(direction, x);
             const double dv = l.v_vtr * dv_trial + l.v_str * ds_trial + l.v_pc * s.log_pc[k];
             const double ds = l.s_vtr * dv_trial + l.s_str * ds_trial + l.s_pc * s.log_pc[k];
-            x = step.shear_ratio * deviator(x) + (ds - step.shear_ratio * ds_trial) * direction;
+            x = shear_ratio * deviator(x) + (ds - shear_ratio * ds_trial) * direction;
             add_to_normals(x, 3, dv * (-1.0 / 3.0));
             if (step.plastic) s.log_pc[k] += (dv_trial - dv) * plasticity.inverse_theta;
         }

@@ -153,6 +153,47 @@ TEST_P(Tangent, IsTheDifferenceOfTheEntryPoint) {
     });
 }
 
+// RPL has its own derivatives: DRPLDE and DRPLDT against differences, the best of several steps.
+TEST_P(Tangent, HeatFollowsItsDerivatives) {
+    const Case& c = GetParam();
+    in_many_states(c, 3, [&](const UmatPoint& point, const Load& load, const Answer& answer) {
+        const auto n = static_cast<std::size_t>(point.size());
+        // The slope of RPL towards a load, by central differences.
+        const auto slope = [&](const auto& perturbed, double given) {
+            double best = HUGE_VAL;
+            for (const double h : {1e-2, 1e-3, 1e-4, 1e-5}) {
+                const Answer ahead = point.evaluate(perturbed(h)), back = point.evaluate(perturbed(-h));
+                if (!ahead.done() || !back.done()) continue;
+                const double found = (ahead.rpl - back.rpl) / (2.0 * h);
+                if (std::abs(found - given) < std::abs(best - given)) best = found;
+            }
+            return best;
+        };
+        const double stress = std::max(largest(point.stress()), 1e-3 * c.stress_scale());
+        for (std::size_t k = 0; k < n; ++k) {
+            const double given = answer.drplde[k] * c.scale();
+            const auto along = [&](double h) {
+                Load perturbed = load;
+                perturbed.dstran[k] += h * c.scale();
+                Numbers strain(n, 0.0);
+                strain[k] = h * c.scale();
+                const Matrix3d d = c.is_cohesive() ? Matrix3d::Zero() : strain_tensor(strain, c.kind);
+                perturbed.dfgrd1 = (Matrix3d::Identity() + d) * *load.dfgrd1;
+                return perturbed;
+            };
+            ASSERT_NEAR(slope(along, given), given, 1e-6 * (std::abs(given) + stress * c.scale()))
+                << "DRPLDE " << k + 1;
+        }
+        const auto hotter = [&](double h) {
+            Load perturbed = load;
+            perturbed.dtemp += h;
+            return perturbed;
+        };
+        ASSERT_NEAR(slope(hotter, answer.drpldt), answer.drpldt, 1e-6 * (std::abs(answer.drpldt) + stress * c.scale()))
+            << "DRPLDT";
+    });
+}
+
 TEST_P(Tangent, IsSymmetricUnlessSaidOtherwise) {
     const Case& c = GetParam();
     if (c.has_trait(LODE_UNSYMMETRIC) || c.is_total_law()) return;

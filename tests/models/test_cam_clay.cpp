@@ -122,14 +122,12 @@ TEST(CamClay, C2_CoupledStep) {
 }
 
 TEST(CamClay, C3_UndrainedNormallyConsolidated) {
-    UmatPoint one("CAM_CLAY-C3", solid, case3), ten = one, far = one, fine = one;
+    UmatPoint one("CAM_CLAY-C3", solid, case3), ten = one, fine = one;
     shear_undrained(one, -0.02, 1);
     expect_printed({one.state(p), one.state(q), one.state(pc), one.stress()[0]},
                    "73.47945751846 60.44458377415 108.0086442294 -113.7758467012");
     shear_undrained(ten, -0.02, 10);
     expect_printed({ten.state(p), ten.state(q), ten.state(pc)}, "67.25246717486 64.6615635145 110.4264078059");
-    shear_undrained(far, -1.0 / 2.5, 1);  // the page's increment of 1 is beyond the guard; see below
-    EXPECT_NEAR(far.state(p), 57.86, 1.0);
 
     // The path in (p, q) is exact: p = p0 [M^2/(M^2 + eta^2)]^Lambda.
     const double M = 1.2, Lambda = 0.8, eta = one.state(q) / one.state(p);
@@ -144,7 +142,7 @@ TEST(CamClay, C3_UndrainedNormallyConsolidated) {
     EXPECT_NEAR(fine.state(p), 57.43491774985, 1e-2);
     EXPECT_NEAR(fine.state(q), 68.92190129982, 1e-2);
 
-    // A step of 1 in the kernel, which has no guard.
+    // One step of 1: beyond the guard on DSTRAN, so in the kernel, which has none.
     const CamClayReturn update(CamClayElasticity(100, 0.02, 3000, 0), 0.1, M);
     const CamClayStep<double> step = update.step<double>(0.0, 1.0, 100, 0.0);
     expect_printed({step.p, step.q}, "57.85678573377 68.79301364218");
@@ -416,7 +414,8 @@ TEST(CamClay, F7_IsotropicAxisIsSmooth) {
         ASSERT_TRUE(a.done());
         EXPECT_LE((a.tangent - axis.tangent).cwiseAbs().maxCoeff(),
                   1e6 * shear * axis.tangent.cwiseAbs().maxCoeff() + 1e-8);
-        EXPECT_NEAR(a.stress[3], axis.tangent(3, 3) * shear, 1e-4 * axis.tangent(3, 3) * shear);
+        // below s = 1e-15 the shear is taken as zero
+        EXPECT_NEAR(a.stress[3], axis.tangent(3, 3) * shear, axis.tangent(3, 3) * (1e-4 * shear + 2e-15));
     }
 }
 
