@@ -28,9 +28,11 @@ struct CamClayInitialState {
             p.refuse(cam_clay::PC0, ">= 1 (with pcmode = 1 it is an overconsolidation ratio)");
     }
 
-    // What the host should hear, in static text: the reason for a refusal, or a warning.
+    // What the host should hear: "<refused> = <value> must be <allowed>", or a warning.
     struct Remarks {
-        const char* refusal = nullptr;
+        const char* refused = nullptr;
+        double value = 0.0;
+        const char* allowed = nullptr;
         const char* warning = nullptr;
     };
 
@@ -48,10 +50,15 @@ struct CamClayInitialState {
             p = trace(effective) * (-1.0 / 3.0);
             deviatoric = deviator(effective);
             q = sqrt(1.5 * double_contraction(deviatoric, deviatoric));
-            if (!(p > 0.0)) return {.refusal = "CAM_CLAY: the initial stress is not compressive"};
+            if (!(p > 0.0))
+                return {.refused = "the initial stress is not compressive: its mean effective pressure p",
+                        .value = p,
+                        .allowed = "> 0"};
         }
         if (!elasticity.invert(p, q, v, s))
-            return {.refusal = "CAM_CLAY: the initial q/p exceeds what alpha, mu0 can carry"};
+            return {.refused = "the initial q/p exceeds what alpha, mu0 can carry: q/p",
+                    .value = q / p,
+                    .allowed = "smaller, or mu0 larger"};
         e = (q > 0.0 ? 1.5 * s / q : 0.0) * deviatoric;
 
         Remarks remarks;
@@ -76,8 +83,8 @@ struct CamClayInitialState {
             strains[static_cast<std::size_t>(i)] = to_lanes(e[i]);
         }
         const Lanes<Real> pore = to_lanes(pore_pressure);
-        Lanes<Real> volume = to_lanes(v), preconsolidation = to_lanes(pc), refused{};
-        const char *refusal = nullptr, *warning = nullptr;
+        Lanes<Real> volume = to_lanes(v), preconsolidation = to_lanes(pc), refused{}, values{};
+        const char *refusal = nullptr, *allowed = nullptr, *warning = nullptr;
         for (std::size_t lane = 0; lane < pore.size(); ++lane) {
             if (!is_set<Real>(fresh, lane)) continue;
             Stress<kind, double> stress, strain{};
@@ -85,15 +92,16 @@ struct CamClayInitialState {
             const Remarks remarks = find(stress, pore[lane], volume[lane], strain, preconsolidation[lane]);
             for (int i = 0; i < n; ++i) strains[static_cast<std::size_t>(i)][lane] = strain[i];
             if (remarks.warning != nullptr) warning = remarks.warning;
-            if (remarks.refusal != nullptr) {
-                refusal = remarks.refusal;
+            if (remarks.refused != nullptr) {
+                refusal = remarks.refused;
+                allowed = remarks.allowed;
                 refused[lane] = 1.0;
+                values[lane] = remarks.value;
             }
         }
         if (warning != nullptr) point.warn(warning);
         if (refusal != nullptr) {
-            point.fail(from_lanes<Real>(refused) > Real(0.0), refusal);
-            point.warn(refusal);  // UMAT: a smaller increment will not help, so the user is told
+            point.refuse(from_lanes<Real>(refused) > Real(0.0), refusal, from_lanes<Real>(values), allowed);
             return false;
         }
         for (int i = 0; i < n; ++i) e[i] = from_lanes<Real>(strains[static_cast<std::size_t>(i)]);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -31,7 +30,7 @@ class Block {
         double largest = 0;
         for (std::size_t i = 0; i < values_.size(); ++i) {
             const double reference = values_[i - i % points_];
-            if (std::memcmp(&values_[i], &reference, sizeof reference) == 0) continue;
+            if (values_[i] == reference || (std::isnan(values_[i]) && std::isnan(reference))) continue;
             const double difference = std::abs(values_[i] - reference);
             largest = std::max(largest, std::isnan(difference) ? HUGE_VAL : difference);
         }
@@ -235,7 +234,7 @@ class Vumat final : public Material {
         const Matrix3 axes = motion_increment(old_rotation, new_rotation).spin;
         const Matrix3 relative = middle.transpose() * (increment.spin - axes) * middle;
         for (int i = 0; i < layout_.nshr(); ++i) {
-            const auto [row, column] = gradient_positions[static_cast<std::size_t>(3 + i)];
+            const auto [row, column] = gradient_positions[std::size_t{3} + static_cast<std::size_t>(i)];
             block.fill(i, relative(row, column));
         }
     }

@@ -166,6 +166,11 @@ TEST_P(CutBack, NonFiniteInput) {
             expect_cut(stressed.stress(stress), {.dstran = Numbers(n, 0.1 * c.scale())});
         }
     expect_cut(point, {.dtime = nan});
+    // A material without thermal expansion may ignore the temperature.
+    const Answer hot = point.evaluate({.dtemp = nan});
+    EXPECT_TRUE(hot.cut ||
+                (std::isfinite(distance(hot.stress, hot.stress)) && std::isfinite(distance(hot.state, hot.state))))
+        << "DTEMP = NaN went through";
     if (!c.reads_deformation) return;
     const int size = c.kind == AnalysisKind::plane_stress ? 2 : c.kind == AnalysisKind::uniaxial ? 1 : 3;
     for (const double bad : {nan, infinity, -infinity})

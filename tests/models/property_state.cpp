@@ -148,6 +148,7 @@ TEST_P(HostProfile, UnrotatedFrame) {
         // The stretch is found again but for rounding.
         const double size = c.reads_deformation ? 64.0 * std::numeric_limits<double>::epsilon() * c.stiffness : 0.0;
         EXPECT_LE(distance(a.stress, b.stress), size);
+        EXPECT_LE(distance(a.state, b.state), size / c.stiffness);
         EXPECT_LE((a.tangent - b.tangent).cwiseAbs().maxCoeff(), 10.0 * size);
         EXPECT_EQ(b.pnewdt, a.done() ? -1.0 : a.pnewdt);
         point.step(load);

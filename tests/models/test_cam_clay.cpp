@@ -551,18 +551,20 @@ TEST(CamClay, InitialStressThatCannotBeCarried) {
     UmatPoint tension("CAM_CLAY-I1", solid, case1);
     tension.stress({10, 0, 0, 0, 0, 0});
     const Answer a = tension.evaluate({.dstran = {-0.001, 0, 0, 0, 0, 0}});
-    EXPECT_TRUE(a.cut);
+    EXPECT_FALSE(a.cut);
     EXPECT_TRUE(identical(a.stress, tension.stress()));
     EXPECT_TRUE(identical(a.state, tension.state()));
-    ASSERT_EQ(a.messages.warnings.size(), 1u);
-    EXPECT_NE(a.messages.warnings[0].find("not compressive"), std::string::npos);
+    EXPECT_EQ(a.messages.stops, 1);
+    ASSERT_EQ(a.messages.errors.size(), 1u);
+    EXPECT_NE(a.messages.errors[0].find("CAM_CLAY-I1: the initial stress is not compressive"), std::string::npos);
+    EXPECT_NE(a.messages.errors[0].find("p = -"), std::string::npos) << a.messages.errors[0];
 
     UmatPoint steep("CAM_CLAY-I2", solid, {100, 0.018, 0.13, 1.05, 0, 60, 1000});
     steep.stress({-260, -20, -20, 0, 0, 0});  // q/p = 2.4 > eta_max = 1.27
     const Answer b = steep.evaluate({});
-    EXPECT_TRUE(b.cut);
-    ASSERT_EQ(b.messages.warnings.size(), 1u);
-    EXPECT_NE(b.messages.warnings[0].find("exceeds what alpha, mu0 can carry"), std::string::npos);
+    EXPECT_EQ(b.messages.stops, 1);
+    ASSERT_EQ(b.messages.errors.size(), 1u);
+    EXPECT_NE(b.messages.errors[0].find("exceeds what alpha, mu0 can carry: q/p = 2.4"), std::string::npos);
 
     VumatBlock block("CAM_CLAY-I3", solid, case1);
     block.points.assign(11, block.fresh_point());
