@@ -21,34 +21,45 @@ namespace {
                                     std::to_string(needed) + " (*DEPVAR)");
 }
 
+// Null if refused and reported.
+[[gnu::noinline, gnu::cold]] Material* new_material(HostProgram host, const char* cmname, const double* props,
+                                                    int nprops) try {
+    bool is_new = false;
+    Material& material = make_material(cmname, props, nprops, is_new);
+    if (is_new && !material.warnings.empty()) report_warning(host, material.name + ": " + material.warnings);
+    return &material;
+} catch (const std::exception& problem) {
+    report_error_and_stop(host, problem.what());
+    return nullptr;
+}
+
 }  // namespace
 
 Call prepare_call(HostProgram host, const char* cmname, const double* props, int nprops, int ndi, int nshr,
                   int nstatv) {
-    Call call;
-    try {
-        bool is_new = false;
-        Material& material = find_material(cmname, props, nprops, is_new);
-        if (is_new && !material.warnings.empty()) [[unlikely]]
-            report_warning(host, material.name + ": " + material.warnings);
-        int kind = kind_from_layout(ndi, nshr);
-        if (host == HostProgram::explicit_ && kind == static_cast<int>(AnalysisKind::plane_strain) &&
-            material.labelled_plane_stress)
-            kind = static_cast<int>(AnalysisKind::plane_stress);
-        if (kind < 0 || material.entry->umat[kind] == nullptr) [[unlikely]] {
-            refuse_kind(host, material, ndi, nshr, kind);
-            return call;
-        }
-        if (nstatv < material.required_state[static_cast<std::size_t>(kind)]) [[unlikely]] {
-            refuse_state(host, material, nstatv, material.required_state[static_cast<std::size_t>(kind)]);
-            return call;
-        }
-        call.material = &material;
-        call.kind = kind;
-    } catch (const std::exception& problem) {
-        report_error_and_stop(host, problem.what());
+    Material* material = known_material(cmname, props, nprops);
+    if (material == nullptr) [[unlikely]] {
+        material = new_material(host, cmname, props, nprops);
+        if (material == nullptr) return {};
     }
-    return call;
+    constexpr int plane_strain = static_cast<int>(AnalysisKind::plane_strain);
+    constexpr int plane_stress = static_cast<int>(AnalysisKind::plane_stress);
+    int kind = kind_from_layout(ndi, nshr);
+    if (host == HostProgram::explicit_) {
+        // An explicit host passes plane stress with component 33: the label tells it from plane strain.
+        if (kind == plane_stress) kind = -1;
+        if (kind == plane_strain && material->labelled_plane_stress) kind = plane_stress;
+    }
+    if (kind < 0 || material->entry->umat[kind] == nullptr) [[unlikely]] {
+        refuse_kind(host, *material, ndi, nshr, kind);
+        return {};
+    }
+    const int needed = material->required_state[static_cast<std::size_t>(kind)];
+    if (nstatv < needed) [[unlikely]] {
+        refuse_state(host, *material, nstatv, needed);
+        return {};
+    }
+    return {material, kind};
 }
 
 std::string failure_text(const Material& material, const CallStatus& status) {

@@ -7,21 +7,18 @@
 namespace lode {
 namespace {
 
-enum class Choice { by_pnewdt, abaqus, calculix };
-
-Choice choice_from_environment() {
+HostChoice choice_from_environment() {
     const char* host = std::getenv("LODE_HOST");
-    if (host == nullptr) return Choice::by_pnewdt;
-    if (std::string_view(host) == "calculix") return Choice::calculix;
-    return std::string_view(host) == "abaqus" ? Choice::abaqus : Choice::by_pnewdt;
+    if (host == nullptr) return HostChoice::by_pnewdt;
+    if (std::string_view(host) == "calculix") return HostChoice::calculix;
+    return std::string_view(host) == "abaqus" ? HostChoice::abaqus : HostChoice::by_pnewdt;
 }
 
 }  // namespace
 
-HostProfile host_profile(double pnewdt_on_entry) {
-    static const Choice choice = choice_from_environment();
-    if (choice == Choice::by_pnewdt) return pnewdt_on_entry <= 0.0 ? HostProfile::calculix : HostProfile::abaqus;
-    return choice == Choice::calculix ? HostProfile::calculix : HostProfile::abaqus;
+HostChoice host_choice() {
+    static const HostChoice choice = choice_from_environment();
+    return choice;
 }
 
 const double* unrotated(const double* deformation_gradient, double* stretch) {

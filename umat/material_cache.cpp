@@ -1,8 +1,6 @@
 #include "material_cache.hpp"
 
-#include <bit>
 #include <cctype>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -13,24 +11,10 @@
 namespace lode {
 namespace {
 
-constexpr std::size_t cmname_length = 80;
-constexpr std::size_t bucket_count = 256;
 // A host that varies PROPS from point to point could otherwise fill the memory; beyond this many materials each thread
 // keeps the last one it made.
 constexpr int most_shared_materials = 4096;
 
-std::size_t hash_of(const double* props, int nprops) {
-    const auto n = static_cast<std::size_t>(nprops > 0 ? nprops : 0);
-    std::uint64_t h = n;
-    if (n > 0) {
-        h ^= std::bit_cast<std::uint64_t>(props[0]);
-        h = h * 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(props[n / 2]);
-        h = h * 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(props[n - 1]);
-    }
-    return static_cast<std::size_t>((h * 0x9E3779B97F4A7C15u) >> 32);
-}
-
-std::array<std::atomic<Material*>, bucket_count> buckets{};
 std::mutex making;
 int shared_materials = 0;
 
@@ -43,6 +27,8 @@ std::string known_keywords() {
 }
 
 }  // namespace
+
+constinit std::array<std::atomic<Material*>, cache_detail::bucket_count> cache_detail::buckets{};
 
 MaterialName parse_material_name(const char* cmname) {
     std::string_view text(cmname, strnlen(cmname, cmname_length));
@@ -61,7 +47,6 @@ Material::Material(const char* cmname, const double* props, int nprops) {
     if (nprops < 0) nprops = 0;
     std::memcpy(cmname_.data(), cmname, strnlen(cmname, cmname_length));
     props_.assign(props, props + nprops);
-    hash = hash_of(props, nprops);
     const MaterialName parsed = parse_material_name(cmname);
     name = parsed.full;
     labelled_plane_stress = parsed.label == "PS" || parsed.label.starts_with("PS-");
@@ -90,33 +75,22 @@ Material::~Material() {
     ::operator delete (const_cast<void*>(object), std::align_val_t{entry->alignment});
 }
 
-bool Material::matches(const char* cmname, const double* props, int nprops) const {
-    return props_.size() == static_cast<std::size_t>(nprops) &&
-           std::memcmp(props_.data(), props, props_.size() * sizeof(double)) == 0 &&
-           std::strncmp(cmname_.data(), cmname, cmname_length) == 0;
-}
-
-Material& find_material(const char* cmname, const double* props, int nprops, bool& is_new) {
+Material& make_material(const char* cmname, const double* props, int nprops, bool& is_new) {
     is_new = false;
     if (nprops < 0) nprops = 0;
-    std::atomic<Material*>& bucket = buckets[hash_of(props, nprops) % bucket_count];
-    for (Material* m = bucket.load(std::memory_order_acquire); m != nullptr; m = const_cast<Material*>(m->next))
-        if (m->matches(cmname, props, nprops)) [[likely]]
-            return *m;
-
     thread_local std::unique_ptr<Material> last;
     if (last && last->matches(cmname, props, nprops)) return *last;
 
     auto made = std::make_unique<Material>(cmname, props, nprops);
     const std::lock_guard lock(making);
-    for (Material* m = bucket.load(std::memory_order_acquire); m != nullptr; m = const_cast<Material*>(m->next))
-        if (m->matches(cmname, props, nprops)) return *m;  // another thread was faster
+    if (Material* m = known_material(cmname, props, nprops)) return *m;  // another thread was faster
     is_new = true;
     if (shared_materials >= most_shared_materials) {
         last = std::move(made);
         return *last;
     }
     ++shared_materials;
+    std::atomic<Material*>& bucket = cache_detail::bucket_of(props, nprops);
     made->next = bucket.load(std::memory_order_relaxed);
     Material* shared = made.release();
     bucket.store(shared, std::memory_order_release);

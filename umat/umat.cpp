@@ -29,7 +29,7 @@ extern "C" LODE_API void umat_(double* stress, double* statev, double* ddsdde, d
     UmatArguments arguments{stress, statev, ddsdde, sse,   spd,    scd,   rpl,  ddsddt, drplde, drpldt, dstran,
                             time,   dtime,  temp,   dtemp, predef, dpred, drot, celent, dfgrd1, *nstatv};
     double stretch[9];
-    if (host_profile(*pnewdt) == HostProfile::calculix) [[unlikely]] {
+    if (host_profile(call.material->host, *pnewdt) == HostProfile::calculix) [[unlikely]] {
         arguments.drot = nullptr;
         arguments.dfgrd1 = unrotated(dfgrd1, stretch);
     }
@@ -38,8 +38,7 @@ extern "C" LODE_API void umat_(double* stress, double* statev, double* ddsdde, d
     if (status.failure != nullptr) [[unlikely]] {
         if (status.refusal != nullptr)
             report_error_and_stop(HostProgram::standard, failure_text(*call.material, status));
-        else
-            ask_for_smaller_increment(*pnewdt, status.time_step_ratio);
+        else ask_for_smaller_increment(*pnewdt, status.time_step_ratio);
     }
     if (status.warning != nullptr) [[unlikely]]
         warn_once(HostProgram::standard, *call.material, status.warning);

@@ -6,7 +6,7 @@
 
 namespace lode {
 
-struct CohTriangular {
+struct CohTriangular : DecoupledInterface<Sawtooth, Sawtooth> {
     static constexpr lode_parameter parameters[] = {
         required("K_N", "initial stiffness, mode I", "stress/length", above(0.0)),
         required("SIG_N", "cohesive stress, mode I", "stress", above(0.0)),
@@ -67,21 +67,13 @@ struct CohTriangular {
     };
 
     explicit CohTriangular(const Properties& p)
-        : law{Sawtooth(p, 1, "n"), Sawtooth(p, 4, "t"), p[7], p[7], Contact(p.code(8), p[9], p[1]), p[10],
-              1.0 / p[10]} {}
-
-    int required_state(AnalysisKind) const { return interface_state::count; }
-
-    template <AnalysisKind kind>
-    void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& tangent) const {
-        law.initial_stiffness(tangent);
-    }
-    template <AnalysisKind kind, class Real, class T>
-    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        law.update(increment, point, tangent);
-    }
-
-    DecoupledInterface<Sawtooth, Sawtooth> law;
+        : DecoupledInterface{Sawtooth(p, {1, 2, 3, 0, 0, "n"}),
+                             Sawtooth(p, {4, 5, 6, 0, 0, "t"}),
+                             p[7],
+                             p[7],
+                             Contact(p.code(8), p[9], p[1]),
+                             p[10],
+                             1.0 / p[10]} {}
 };
 
 }  // namespace lode

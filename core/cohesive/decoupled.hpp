@@ -1,5 +1,5 @@
 // Method 0 of page 40 (section 4.5): each mode damages by its own strength law, and both fail together, by the end of
-// one law or by the energy criterion (GI/GIc)^p + (GII/GIIc)^q = 1.
+// one law or by the energy criterion (GI/GIc)^p + (GII/GIIc)^q = 1. The decoupled keywords derive from this.
 #pragma once
 
 #include "lode/cohesive/interface.hpp"
@@ -11,13 +11,14 @@ template <class NormalLaw, class ShearLaw>
 struct DecoupledInterface {
     NormalLaw normal;
     ShearLaw shear;
-    double p, q;  // exponents of the criterion, p <= 0: none
+    double exponent_I, exponent_II;  // p, q of the criterion; p <= 0: none
     Contact contact;
     double thickness, inverse_thickness;
 
-    // DDSDDE of the virgin interface.
+    int required_state(AnalysisKind) const { return interface_state::count; }
+
     template <AnalysisKind kind>
-    void initial_stiffness(Tangent<kind>& tangent) const {
+    void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& tangent) const {
         constexpr int n = components(kind);
         for (int i = 0; i < n * n; ++i) tangent.stiffness[i] = 0.0;
         for (int i = 0; i < n; ++i) tangent(i, i) = thickness * (i == 0 ? normal.stiffness : shear.stiffness);
@@ -47,7 +48,7 @@ struct DecoupledInterface {
         // 2. failure, at the point of the path where it happens
         result.failed = failed_before;
         Mask<Real> fails = result.dn >= Real(normal.end) || result.dt >= Real(shear.end);
-        if (p > 0.0 && any(opens || slides))
+        if (exponent_I > 0.0 && any(opens || slides))
             fails = fails || ((opens || slides) && released_fraction(result.GI, result.GII) >= one);
         fails = fails && !failed_before;
         if (any(fails)) [[unlikely]] {
@@ -97,7 +98,7 @@ struct DecoupledInterface {
     // (GI/GIc)^p + (GII/GIIc)^q
     template <class Real>
     Real released_fraction(const Real& GI, const Real& GII) const {
-        return power(GI * normal.inverse_toughness, p) + power(GII * shear.inverse_toughness, q);
+        return power(GI * normal.inverse_toughness, exponent_I) + power(GII * shear.inverse_toughness, exponent_II);
     }
 
     // The first s of the path at which one of the conditions of failure holds; they grow with s, since u_n and u_t are
@@ -117,19 +118,20 @@ struct DecoupledInterface {
             const Real dn_rate = select(opening > dn_old, path.change[0], zero);
             const Real dt_rate = select(sliding > dt_old, along / max(sliding, dt_old), zero);
 
-            const Real end_n = (dn - normal.end) * normal.inverse_end, end_t = (dt - shear.end) * shear.inverse_end;
+            const Real end_n = dn * normal.inverse_end - 1.0, end_t = dt * shear.inverse_end - 1.0;
             Residual<Real> r;
             r.value = max(end_n, end_t);
             r.slope = select(end_n > end_t, dn_rate * normal.inverse_end, dt_rate * shear.inverse_end);
-            if (p > 0.0) {
+            if (exponent_I > 0.0) {
                 const Real GI = released(normal, dn), GII = released(shear, dt);
                 const Real criterion = released_fraction(GI, GII) - 1.0;
                 const auto rate = [](const auto& law, const Real& delta, const Real& G, double exponent) {
                     return exponent * law.inverse_toughness * power(G * law.inverse_toughness, exponent - 1.0) *
                            law.release_rate(min(delta, Real(law.end)));
                 };
-                r.slope = select(criterion > r.value,
-                                 rate(normal, dn, GI, p) * dn_rate + rate(shear, dt, GII, q) * dt_rate, r.slope);
+                r.slope = select(
+                    criterion > r.value,
+                    rate(normal, dn, GI, exponent_I) * dn_rate + rate(shear, dt, GII, exponent_II) * dt_rate, r.slope);
                 r.value = max(r.value, criterion);
             }
             return r;

@@ -96,6 +96,12 @@ struct InterfaceResult {
     Real GI, GII, Gdrop;
     Mask<Real> failed;
 
+    // An interface that cannot be damaged.
+    static InterfaceResult intact(const Real& normal_stiffness, const Real& shear_stiffness) {
+        const Real zero(0.0);
+        return {normal_stiffness, shear_stiffness, zero, zero, zero, zero, zero, zero, zero, Mask<Real>(false)};
+    }
+
     // Slope of the normal traction while damage does not grow.
     Real secant(const Real& un, const Contact& contact) const {
         return select(un < Real(0.0), contact.stiffness(normal_stiffness), normal_stiffness);
@@ -104,15 +110,21 @@ struct InterfaceResult {
     // False, with the point marked as failed, where the work overflows.
     LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double per_thickness,
                             Point<kind, Real>& point) const {
+        constexpr int n = components(kind);
+        Vector<Real, n> traction;
+        traction[0] = secant(path.end[0], contact) * path.end[0];
+        for (int i = 1; i < n; ++i) traction[i] = shear_stiffness * path.end[i];
+        return finish(path, traction, per_thickness, point);
+    }
+    // The same with tractions that do not follow from the stiffnesses.
+    LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Vector<Real, components(kind)>& traction,
+                            double per_thickness, Point<kind, Real>& point) const {
         namespace index = interface_state;
         constexpr int n = components(kind);
         State<Real>& state = point.state;
         const Real released_before = state[index::GI] + state[index::GII] + state[index::Gdrop];
         const Real work_before = state[index::W];
 
-        Vector<Real, n> traction;
-        traction[0] = secant(path.end[0], contact) * path.end[0];
-        for (int i = 1; i < n; ++i) traction[i] = shear_stiffness * path.end[i];
         Real work = Real(0.0), stored = Real(0.0);
         for (int i = 0; i < n; ++i) {
             work = work + (point.stress[i] + traction[i]) * path.change[i];

@@ -1,12 +1,172 @@
 // ISO_ELASTIC: isotropic linear elasticity with residual strain (page 10; Nairn, chapters 1 and 3).
 #pragma once
 
+#include <variant>
+
 #include "lode/elastic/isotropic_moduli.hpp"
 #include "lode/elastic/total_rotation.hpp"
 #include "lode/material/description.hpp"
 #include "lode/material/properties.hpp"
 
 namespace lode {
+
+namespace iso_elastic {
+
+// Each has code of its own.
+enum class Variant {
+    plain,    // KIN = 0 without options
+    options,  // KIN = 0 with expansion or an out-of-plane option
+    total     // KIN = 1, 2
+};
+
+template <Variant variant>
+class Kernel {
+  public:
+    static constexpr bool reads_stretch = variant == Variant::total;
+
+    explicit Kernel(const Properties& p)
+        : moduli(IsotropicModuli::from_young_poisson(p[1], p[2])),
+          thermal_expansion(p[3]),
+          field_expansion(p[4]),
+          out_of_plane(p[6]),
+          ramp_time(p[7]) {}
+
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        // A bar has no rotation to take out.
+        if constexpr (variant == Variant::total && kind != AnalysisKind::uniaxial)
+            update_total(increment, point, tangent);
+        else update_incremental(increment, point, tangent);
+    }
+
+    IsotropicModuli moduli;
+
+  private:
+    static constexpr int EZZ = 1, OOP = 2, DT = 3, DC = 4;  // STATEV
+    static constexpr bool has_options = variant != Variant::plain;
+    double thermal_expansion, field_expansion;
+    double out_of_plane, ramp_time;
+
+    // KIN = 0: sigma += C (DSTRAN - residual increment), page 10, section 1.6.
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update_incremental(const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                        T& tangent) const {
+        auto& state = point.state;
+        Strain<kind, Real> strain = increment.strain_increment;
+        Real residual = Real(0.0), imposed_change = Real(0.0);
+        const Real temperature_increment = increment.temperature_increment();
+        const Real temperature_sum = state[DT] + temperature_increment;
+        Real imposed = Real(0.0), field_sum = Real(0.0);
+        if constexpr (has_options) {
+            imposed = state[OOP], field_sum = state[DC];
+            residual = thermal_expansion * temperature_increment;
+            if (field_expansion != 0.0) {
+                const Real field_increment = increment.field_increment(1);
+                residual = residual + field_expansion * field_increment;
+                field_sum = field_sum + field_increment;
+            }
+            add_to_normals(strain, normal_components(kind), -residual);
+            const Real imposed_before = imposed;
+            imposed = imposed_out_of_plane(increment);
+            imposed_change = imposed - imposed_before;
+            add_out_of_plane(strain, imposed_change);
+        }
+        Stress<kind, Real> change = moduli.template stress<kind>(strain);
+        if constexpr (has_options) add_imposed_stress(change, imposed_change);
+        point.stress += change;
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            point.thickness_strain_increment = lateral_strain(change, imposed_change) + residual;
+            state.set(EZZ, state[EZZ] + point.thickness_strain_increment);
+        } else {
+            state.keep(EZZ);
+        }
+        if constexpr (wants_tangent<T>) {
+            moduli.template set_stiffness<kind>(tangent);
+            if constexpr (has_options) set_thermal_stress(tangent);
+        }
+        set_energy(point, imposed);
+        state.set(DT, temperature_sum);
+        if constexpr (has_options) {
+            state.set(OOP, imposed);
+            state.set(DC, field_sum);
+        } else {
+            state.keep(OOP);
+            state.keep(DC);
+        }
+    }
+
+    // KIN = 1, 2: sigma = C (V - I - residual strain), section 1.7.
+    template <AnalysisKind kind, class Real, class T>
+    [[gnu::noinline]] void update_total(const Increment<kind, Real>& increment, Point<kind, Real>& point,
+                                        T& tangent) const {
+        auto& state = point.state;
+        TotalRotation<kind, Real> rotation;
+        if (!rotation.from(increment, point)) return;
+        const Real temperature_sum = state[DT] + increment.temperature_increment();
+        Real field_sum = state[DC];
+        if (field_expansion != 0.0) field_sum = field_sum + increment.field_increment(1);
+        const Real residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
+        const Real imposed = imposed_out_of_plane(increment);
+        Strain<kind, Real> strain = rotation.strain;
+        add_to_normals(strain, normal_components(kind), -residual);
+        add_out_of_plane(strain, imposed);
+        point.stress = moduli.template stress<kind>(strain);
+        add_imposed_stress(point.stress, imposed);
+        Real out_of_plane_strain = state[EZZ];
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            const Real before = out_of_plane_strain;
+            out_of_plane_strain = lateral_strain(point.stress, imposed) + residual;
+            point.thickness_strain_increment = out_of_plane_strain - before;
+        }
+        if constexpr (wants_tangent<T>) {
+            rotation.set_tangent(moduli, point.stress, tangent);
+            set_thermal_stress(tangent);
+        }
+        set_energy(point, imposed);
+        state.set(EZZ, out_of_plane_strain);
+        state.set(OOP, imposed);
+        state.set(DT, temperature_sum);
+        state.set(DC, field_sum);
+    }
+
+    // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE Real imposed_out_of_plane(const Increment<kind, Real>& increment) const {
+        if (kind != AnalysisKind::plane_stress && kind != AnalysisKind::plane_strain) return Real(0.0);
+        return Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
+    }
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE static void add_out_of_plane(Strain<kind, Real>& strain, const Real& imposed) {
+        if constexpr (kind == AnalysisKind::plane_strain) strain[2] = strain[2] + imposed;
+    }
+    // Plane stress: -Q S_a3 sigma33 = nu/(1 - nu) sigma33 in both directions.
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE void add_imposed_stress(Stress<kind, Real>& stress, const Real& imposed) const {
+        if constexpr (kind == AnalysisKind::plane_stress)
+            add_to_normals(stress, 2, moduli.poisson / (1.0 - moduli.poisson) * imposed);
+    }
+    // eps33 of plane stress without its residual part.
+    template <class Real>
+    LODE_INLINE Real lateral_strain(const Stress<AnalysisKind::plane_stress, Real>& s, const Real& imposed) const {
+        return (imposed - moduli.poisson * (s[0] + s[1])) * (1.0 / moduli.young);
+    }
+    template <AnalysisKind kind>
+    LODE_INLINE void set_thermal_stress(Tangent<kind>& tangent) const {
+        for (int i = 0; i < normal_components(kind); ++i)
+            tangent.thermal_stress[i] = -thermal_expansion * moduli.template thermal_stiffness<kind>();
+    }
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE void set_energy(Point<kind, Real>& point, const Real& imposed) const {
+        point.elastic_energy = moduli.template energy<kind>(point.stress);
+        if constexpr (kind == AnalysisKind::plane_stress)
+            if (variant != Variant::plain && out_of_plane != 0.0)
+                point.elastic_energy =
+                    point.elastic_energy +
+                    (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
+    }
+};
+
+}  // namespace iso_elastic
 
 struct IsoElastic {
     static constexpr lode_parameter parameters[] = {
@@ -66,150 +226,41 @@ struct IsoElastic {
             "stress of the host is lost.\n",
     };
 
-    explicit IsoElastic(const Properties& p)
-        : moduli(IsotropicModuli::from_young_poisson(p[1], p[2])),
-          thermal_expansion(p[3]),
-          field_expansion(p[4]),
-          total_law(p.code(5) != 0),
-          out_of_plane(p[6]),
-          ramp_time(p[7]),
-          has_options(thermal_expansion != 0.0 || field_expansion != 0.0 || out_of_plane != 0.0) {}
+    explicit IsoElastic(const Properties& p) : kernel(make_kernel(p)) {}
 
     int required_state(AnalysisKind) const { return 4; }
 
     template <AnalysisKind kind>
     void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& c) const {
-        moduli.set_stiffness<kind>(c);
+        specialise([&](const auto& k) { k.moduli.template set_stiffness<kind>(c); });
+    }
+
+    // Calls f with the kernel at hand.
+    template <class F>
+    LODE_INLINE void specialise(const F& f) const {
+        if (const auto* plain = std::get_if<0>(&kernel)) return f(*plain);
+        if (const auto* options = std::get_if<1>(&kernel)) return f(*options);
+        f(*std::get_if<2>(&kernel));
     }
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        if (kind != AnalysisKind::uniaxial && total_law)
-            return out_of_line(increment, point, tangent,
-                               [this](const auto& i, auto& p, auto& t) { this->update_total(i, p, t); });
-        if (has_options) return update_incremental<true>(increment, point, tangent);
-        update_incremental<false>(increment, point, tangent);
+        specialise([&](const auto& k) __attribute__((always_inline)) { k.update(increment, point, tangent); });
     }
-
-    IsotropicModuli moduli;
-    double thermal_expansion, field_expansion;
-    bool total_law;
-    double out_of_plane, ramp_time;
-    bool has_options;  // expansion or an out-of-plane option
 
   private:
-    static constexpr int EZZ = 1, OOP = 2, DT = 3, DC = 4;  // STATEV
+    template <iso_elastic::Variant... variants>
+    using AnyKernel = std::variant<iso_elastic::Kernel<variants>...>;
+    using Variant = iso_elastic::Variant;
+    using Kernel = AnyKernel<Variant::plain, Variant::options, Variant::total>;
 
-    // KIN = 0: sigma += C (DSTRAN - residual increment), page 10, section 1.6.
-    template <bool options, AnalysisKind kind, class Real, class T>
-    LODE_INLINE void update_incremental(const Increment<kind, Real>& increment, Point<kind, Real>& point,
-                                        T& tangent) const {
-        auto& state = point.state;
-        Strain<kind, Real> strain = increment.strain_increment;
-        Real residual = Real(0.0), imposed_change = Real(0.0);
-        const Real temperature_increment = increment.temperature_increment();
-        const Real temperature_sum = state[DT] + temperature_increment;
-        Real out_of_plane_strain = state[EZZ], imposed = state[OOP], field_sum = state[DC];
-        if constexpr (options) {
-            residual = thermal_expansion * temperature_increment;
-            if (field_expansion != 0.0) {
-                const Real field_increment = increment.field_increment(1);
-                residual = residual + field_expansion * field_increment;
-                field_sum = field_sum + field_increment;
-            }
-            add_to_normals(strain, normal_components(kind), -residual);
-            const Real imposed_before = imposed;
-            imposed = imposed_out_of_plane(increment);
-            imposed_change = imposed - imposed_before;
-            add_out_of_plane(strain, imposed_change);
-        }
-        Stress<kind, Real> change = moduli.template stress<kind>(strain);
-        if constexpr (options) add_imposed_stress(change, imposed_change);
-        point.stress = point.stress + change;
-        if constexpr (kind == AnalysisKind::plane_stress) {
-            point.thickness_strain_increment = lateral_strain(change, imposed_change) + residual;
-            out_of_plane_strain = out_of_plane_strain + point.thickness_strain_increment;
-        }
-        if constexpr (wants_tangent<T>) {
-            moduli.template set_stiffness<kind>(tangent);
-            if constexpr (options) set_thermal_stress(tangent);
-        }
-        set_energy(point, imposed);
-        state.set(EZZ, out_of_plane_strain);
-        state.set(OOP, imposed);
-        state.set(DT, temperature_sum);
-        state.set(DC, field_sum);
+    static Kernel make_kernel(const Properties& p) {
+        if (p.code(5) != 0) return iso_elastic::Kernel<Variant::total>(p);
+        if (p[3] != 0.0 || p[4] != 0.0 || p[6] != 0.0) return iso_elastic::Kernel<Variant::options>(p);
+        return iso_elastic::Kernel<Variant::plain>(p);
     }
 
-    // KIN = 1, 2: sigma = C (V - I - residual strain), section 1.7.
-    template <AnalysisKind kind, class Real, class T>
-    [[gnu::noinline]] void update_total(const Increment<kind, Real>& increment, Point<kind, Real>& point,
-                                        T& tangent) const {
-        auto& state = point.state;
-        TotalRotation<kind, Real> rotation;
-        if (!rotation.from(increment, point)) return;
-        const Real temperature_sum = state[DT] + increment.temperature_increment();
-        Real field_sum = state[DC];
-        if (field_expansion != 0.0) field_sum = field_sum + increment.field_increment(1);
-        const Real residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
-        const Real imposed = imposed_out_of_plane(increment);
-        Strain<kind, Real> strain = rotation.strain;
-        add_to_normals(strain, normal_components(kind), -residual);
-        add_out_of_plane(strain, imposed);
-        point.stress = moduli.template stress<kind>(strain);
-        add_imposed_stress(point.stress, imposed);
-        Real out_of_plane_strain = state[EZZ];
-        if constexpr (kind == AnalysisKind::plane_stress) {
-            const Real before = out_of_plane_strain;
-            out_of_plane_strain = lateral_strain(point.stress, imposed) + residual;
-            point.thickness_strain_increment = out_of_plane_strain - before;
-        }
-        if constexpr (wants_tangent<T>) {
-            rotation.set_tangent(moduli, point.stress, tangent);
-            set_thermal_stress(tangent);
-        }
-        set_energy(point, imposed);
-        state.set(EZZ, out_of_plane_strain);
-        state.set(OOP, imposed);
-        state.set(DT, temperature_sum);
-        state.set(DC, field_sum);
-    }
-
-    // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
-    template <AnalysisKind kind, class Real>
-    Real imposed_out_of_plane(const Increment<kind, Real>& increment) const {
-        if (kind != AnalysisKind::plane_stress && kind != AnalysisKind::plane_strain) return Real(0.0);
-        return Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
-    }
-    template <AnalysisKind kind, class Real>
-    static void add_out_of_plane(Strain<kind, Real>& strain, const Real& imposed) {
-        if constexpr (kind == AnalysisKind::plane_strain) strain[2] = strain[2] + imposed;
-    }
-    // Plane stress: -Q S_a3 sigma33 = nu/(1 - nu) sigma33 in both directions.
-    template <AnalysisKind kind, class Real>
-    void add_imposed_stress(Stress<kind, Real>& stress, const Real& imposed) const {
-        if constexpr (kind == AnalysisKind::plane_stress)
-            add_to_normals(stress, 2, moduli.poisson / (1.0 - moduli.poisson) * imposed);
-    }
-    // eps33 of plane stress without its residual part.
-    template <class Real>
-    Real lateral_strain(const Stress<AnalysisKind::plane_stress, Real>& s, const Real& imposed) const {
-        return (imposed - moduli.poisson * (s[0] + s[1])) * (1.0 / moduli.young);
-    }
-    template <AnalysisKind kind>
-    void set_thermal_stress(Tangent<kind>& tangent) const {
-        for (int i = 0; i < normal_components(kind); ++i)
-            tangent.thermal_stress[i] = -thermal_expansion * moduli.template thermal_stiffness<kind>();
-    }
-    template <AnalysisKind kind, class Real>
-    void set_energy(Point<kind, Real>& point, const Real& imposed) const {
-        point.elastic_energy = moduli.template energy<kind>(point.stress);
-        if constexpr (kind == AnalysisKind::plane_stress)
-            if (out_of_plane != 0.0)
-                point.elastic_energy =
-                    point.elastic_energy +
-                    (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
-    }
+    Kernel kernel;
 };
 
 }  // namespace lode

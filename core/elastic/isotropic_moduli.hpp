@@ -2,36 +2,44 @@
 // elastically isotropic.
 #pragma once
 
+#include "lode/elastic/isotropic_tangent.hpp"
 #include "lode/material/point.hpp"
 
 namespace lode {
 
 struct IsotropicModuli {
     double young, poisson, shear, bulk, lame;
-    double half_compliance;  // 1/(2E)
+    double half_compliance;               // 1/(2E)
+    double plane_normal, plane_coupling;  // plane-stress stiffness
 
     static constexpr IsotropicModuli from_young_poisson(double e, double nu) {
-        return {
-            e,      nu, e / (2.0 * (1.0 + nu)), e / (3.0 * (1.0 - 2.0 * nu)), e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-            0.5 / e};
+        const double plane = e / (1.0 - nu * nu);
+        return {.young = e,
+                .poisson = nu,
+                .shear = e / (2.0 * (1.0 + nu)),
+                .bulk = e / (3.0 * (1.0 - 2.0 * nu)),
+                .lame = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+                .half_compliance = 0.5 / e,
+                .plane_normal = plane,
+                .plane_coupling = nu * plane};
     }
 
     // Diagonal and off-diagonal normal entries of the stiffness of a kind (plane stress: condensed).
     template <AnalysisKind kind>
-    constexpr double normal_stiffness() const {
-        if constexpr (kind == AnalysisKind::plane_stress) return young / (1.0 - poisson * poisson);
+    LODE_INLINE constexpr double normal_stiffness() const {
+        if constexpr (kind == AnalysisKind::plane_stress) return plane_normal;
         else if constexpr (kind == AnalysisKind::uniaxial) return young;
         else return lame + 2.0 * shear;
     }
     template <AnalysisKind kind>
-    constexpr double coupling_stiffness() const {
-        if constexpr (kind == AnalysisKind::plane_stress) return poisson * young / (1.0 - poisson * poisson);
+    LODE_INLINE constexpr double coupling_stiffness() const {
+        if constexpr (kind == AnalysisKind::plane_stress) return plane_coupling;
         else return lame;
     }
 
     // C eps.
     template <AnalysisKind kind, class Real>
-    Stress<kind, Real> stress(const Strain<kind, Real>& e) const {
+    LODE_INLINE Stress<kind, Real> stress(const Strain<kind, Real>& e) const {
         constexpr int normals = normal_components(kind);
         Stress<kind, Real> s;
         if constexpr (kind == AnalysisKind::uniaxial) {
@@ -47,17 +55,14 @@ struct IsotropicModuli {
     }
 
     template <AnalysisKind kind>
-    void set_stiffness(Tangent<kind>& c) const {
-        constexpr int n = components(kind), normals = normal_components(kind);
-        for (int i = 0; i < n * n; ++i) c.stiffness[i] = 0.0;
-        for (int j = 0; j < normals; ++j)
-            for (int i = 0; i < normals; ++i) c(i, j) = i == j ? normal_stiffness<kind>() : coupling_stiffness<kind>();
-        for (int i = normals; i < n; ++i) c(i, i) = shear;
+    LODE_INLINE void set_stiffness(Tangent<kind>& c) const {
+        if constexpr (kind == AnalysisKind::uniaxial) c(0, 0) = young;
+        else set_isotropic(c, coupling_stiffness<kind>(), 2.0 * shear);
     }
 
     // d sigma / d temperature at fixed strain, times -1, per unit expansion coefficient: the normal entries of C 1.
     template <AnalysisKind kind>
-    constexpr double thermal_stiffness() const {
+    LODE_INLINE constexpr double thermal_stiffness() const {
         if constexpr (kind == AnalysisKind::plane_stress) return young / (1.0 - poisson);
         else if constexpr (kind == AnalysisKind::uniaxial) return young;
         else return 3.0 * bulk;
@@ -65,7 +70,7 @@ struct IsotropicModuli {
 
     // sigma : S : sigma / 2 per volume; `out_of_plane` is sigma33 of plane stress.
     template <AnalysisKind kind, class Real>
-    Real energy(const Stress<kind, Real>& s, double out_of_plane = 0.0) const {
+    LODE_INLINE Real energy(const Stress<kind, Real>& s, double out_of_plane = 0.0) const {
         Real squares = double_contraction(s, s);
         Real sum = trace(s);
         if (out_of_plane != 0.0) {

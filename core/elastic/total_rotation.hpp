@@ -18,7 +18,8 @@ struct TotalRotation {
             f(0, 2) = f(2, 0) = f(1, 2) = f(2, 1) = Real(0.0);
             if constexpr (kind == AnalysisKind::plane_stress) f(2, 2) = Real(1.0);  // the host's value is a guess
         }
-        const auto inverted = !(determinant(f) > Real(0.0));
+        const Real volume = determinant(f);
+        const auto inverted = !(volume > Real(0.0) && is_finite(volume));
         if (any(inverted)) {
             point.fail(inverted, "det F <= 0");
             return false;

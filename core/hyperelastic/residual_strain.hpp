@@ -4,6 +4,7 @@
 
 #include "lode/material/point.hpp"
 #include "lode/tensor/kinematics.hpp"
+#include "lode/tensor/polar.hpp"
 
 namespace lode {
 
@@ -39,6 +40,40 @@ struct ResidualStrain {
     }
 };
 
+// F - I and det F as the host gives them. With `local_basis` (ORI = 1) both indices of F refer to axes that turn with
+// the material: F is then U in the reference basis turned on one side, and its left stretch is that U (section 1.1). An
+// explicit host passes U itself.
+template <AnalysisKind kind, class Real>
+struct Deformation {
+    Matrix3<Real> h;
+    Real jacobian;
+
+    Deformation(const Increment<kind, Real>& increment, bool local_basis) {
+        const Matrix3<Real> f = increment.deformation_gradient();
+        h = displacement_gradient<kind>(f);
+        jacobian = lode::jacobian<kind>(f);
+        if constexpr (!is_batch<Real>) {
+            if (local_basis) h = turned_to_reference(h);
+        }
+    }
+
+  private:
+    [[gnu::noinline]] static Matrix3<Real> turned_to_reference(const Matrix3<Real> gradient) {
+        return left_stretch_minus_identity<kind>(gradient);
+    }
+};
+
+// Kinematics of F* = I + H with J* = det F*, which counts where J* is not near 1.
+template <AnalysisKind kind, class Real>
+inline Kinematics<kind, Real> kinematics_of_gradient(const Matrix3<Real>& h, const Real& jacobian) {
+    Kinematics<kind, Real> k;
+    k.h = h;
+    k.b = left_cauchy_green_minus_identity<kind>(h);
+    k.j = jacobian_minus_one<kind>(h);
+    k.jacobian = select(k.j > Real(-0.5), 1.0 + k.j, jacobian);
+    return k;
+}
+
 // Plane stress: completes the kinematics by the thickness stretch F33* and, without cancellation, d = F33* - 1.
 template <class Real>
 inline void set_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k, const Real& stretch, const Real& d) {
@@ -59,6 +94,28 @@ inline Real first_invariant_excess(const Matrix3<Real>& h) {
         const Real minor = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
         return squares - 2.0 * minor + h(2, 2) * (h(2, 2) - 2.0 * plane_jacobian_minus_one(h));
     }
+}
+
+// A^2 of a symmetric tensor with three normal components.
+template <AnalysisKind kind, class Real>
+inline Stress<kind, Real> square_of(const Stress<kind, Real>& a) {
+    Stress<kind, Real> r;
+    const Real s12 = a[3] * a[3];
+    if constexpr (kind == AnalysisKind::solid) {
+        const Real s13 = a[4] * a[4], s23 = a[5] * a[5];
+        r[0] = a[0] * a[0] + s12 + s13;
+        r[1] = a[1] * a[1] + s12 + s23;
+        r[2] = a[2] * a[2] + s13 + s23;
+        r[3] = (a[0] + a[1]) * a[3] + a[4] * a[5];
+        r[4] = (a[0] + a[2]) * a[4] + a[3] * a[5];
+        r[5] = (a[1] + a[2]) * a[5] + a[3] * a[4];
+    } else {
+        r[0] = a[0] * a[0] + s12;
+        r[1] = a[1] * a[1] + s12;
+        r[2] = a[2] * a[2];
+        r[3] = (a[0] + a[1]) * a[3];
+    }
+    return r;
 }
 
 // Thickness strain increment (logarithmic) of plane stress from the total F33 - 1.

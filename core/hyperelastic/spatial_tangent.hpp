@@ -33,4 +33,61 @@ LODE_INLINE void set_stretching_tangent(Tangent<kind>& c, double factor, const S
     }
 }
 
+// The following serve the kinds with three normal components; plane stress is condensed from them.
+
+namespace spatial_detail {
+
+inline constexpr int first_index[] = {0, 1, 2, 0, 0, 1}, second_index[] = {0, 1, 2, 1, 2, 2};
+
+// f(row, column, i, j, k, l) for the upper triangle.
+template <AnalysisKind kind, class F>
+LODE_INLINE void for_each_modulus(const F& f) {
+    for (int column = 0; column < components(kind); ++column)
+        for (int row = 0; row <= column; ++row)
+            f(row, column, first_index[row], second_index[row], first_index[column], second_index[column]);
+}
+template <AnalysisKind kind>
+LODE_INLINE void add_to_both(Tangent<kind>& c, int row, int column, double x) {
+    c(row, column) += x;
+    if (row != column) c(column, row) += x;
+}
+
+}  // namespace spatial_detail
+
+// C += S(A, C), where S(A, C) : D = A D C + C D A for symmetric A, C.
+template <AnalysisKind kind>
+LODE_INLINE void add_two_sided(Tangent<kind>& tangent, const Stress<kind, double>& first,
+                               const Stress<kind, double>& second) {
+    const Matrix3<double> a = to_matrix<kind, double>(first, 1.0), c = to_matrix<kind, double>(second, 1.0);
+    spatial_detail::for_each_modulus<kind>([&](int row, int column, int i, int j, int k, int l) {
+        const double s = 0.5 * (a(i, k) * c(j, l) + a(i, l) * c(j, k) + c(i, k) * a(j, l) + c(i, l) * a(j, k));
+        spatial_detail::add_to_both(tangent, row, column, s);
+    });
+}
+// C += factor S(A, A)/2: D -> factor A D A.
+template <AnalysisKind kind>
+LODE_INLINE void add_sandwich(Tangent<kind>& tangent, double factor, const Stress<kind, double>& tensor) {
+    const Matrix3<double> a = to_matrix<kind, double>(tensor, 1.0);
+    spatial_detail::for_each_modulus<kind>([&](int row, int column, int i, int j, int k, int l) {
+        spatial_detail::add_to_both(tangent, row, column, 0.5 * factor * (a(i, k) * a(j, l) + a(i, l) * a(j, k)));
+    });
+}
+// C += 1 (x) A + A (x) 1.
+template <AnalysisKind kind>
+LODE_INLINE void add_volume_coupling(Tangent<kind>& tangent, const Stress<kind, double>& a) {
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < components(kind); ++i) {
+            tangent(i, j) += a[i];
+            tangent(j, i) += a[i];
+        }
+}
+// C += factor A (x) A.
+template <AnalysisKind kind>
+LODE_INLINE void add_dyad(Tangent<kind>& tangent, double factor, const Stress<kind, double>& a) {
+    for (int j = 0; j < components(kind); ++j) {
+        const double scaled = factor * a[j];
+        for (int i = 0; i < components(kind); ++i) tangent(i, j) += scaled * a[i];
+    }
+}
+
 }  // namespace lode

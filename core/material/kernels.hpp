@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
 #include <utility>
 
@@ -19,7 +20,8 @@ namespace lode {
 //   template <kind> void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>&) const;
 // and, if it has something to say at creation, `std::string warnings() const`. A model with variants (a hardening law,
 // an option) may also have `specialise(f)`, which calls f with the one `update`-able kernel that its constants ask for:
-// then each variant gets code of its own, free of the others.
+// then each variant gets code of its own, free of the others. A kernel that reads the deformation without the trait
+// LODE_FINITE_STRAIN says so by `static constexpr bool reads_stretch = true`.
 template <class Model>
 concept MaterialModel = std::constructible_from<Model, const Properties&> &&
     requires(const Model& model, AnalysisKind kind) {
@@ -35,25 +37,36 @@ LODE_INLINE void specialise(const Model& model, const F& f) {
     else f(model);
 }
 
-// Zero if every component is finite, NaN otherwise.
 template <class V>
-inline auto finiteness(const V& a) {
-    auto sum = a[0] * 0.0;
-    for (int i = 1; i < V::size(); ++i) sum = sum + a[i] * 0.0;
-    return sum;
+LODE_INLINE auto finiteness(const V& a) {
+    auto finite = is_finite(a[0]);
+    for (int i = 1; i < V::size(); ++i) finite = finite && is_finite(a[i]);
+    return finite;
+}
+// Lanes in which every component of stress and strain is finite. Their product, which the callers need anyway, tells
+// unless it overflows.
+template <AnalysisKind kind, class Real>
+LODE_INLINE Mask<Real> are_finite(const Stress<kind, Real>& stress, const Strain<kind, Real>& strain,
+                                  const Real& product) {
+    const Mask<Real> finite = is_finite(product);
+    if (all(finite)) [[likely]]
+        return finite;
+    return finiteness(stress) && finiteness(strain);
 }
 
 // A model's update is inlined here, so that the point lives in registers and what no caller reads is never computed.
 template <AnalysisKind kind, class Kernel>
-LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments a, CallStatus& status) {
+LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallStatus& status) {
     constexpr int n = components(kind);
 
     Increment<kind, double> increment;
     Point<kind, double> point;
     for (int i = 0; i < n; ++i) increment.strain_increment[i] = a.dstran[i];
     for (int i = 0; i < n; ++i) point.stress[i] = a.stress[i];
-    if (!(finiteness(increment.strain_increment) + finiteness(point.stress) + *a.dtime * 0.0 == 0.0)) [[unlikely]] {
-        status.failure = "DSTRAN, STRESS or DTIME on entry is not finite";
+    const double work = double_contraction(point.stress, increment.strain_increment);
+    if (!are_finite(point.stress, increment.strain_increment, work) || !is_finite(*a.dtime + *a.temp + *a.dtemp))
+        [[unlikely]] {
+        status.failure = "DSTRAN, STRESS, DTIME, TEMP or DTEMP on entry is not finite";
         status.time_step_ratio = 0.25;
         return;
     }
@@ -68,8 +81,8 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments a, CallSta
     increment.rotation_source = a.drot;
     point.state = State<double>(a.statev, a.statev, 1, a.nstatv);
 
-    for (int i = 0; i < n; ++i) a.ddsddt[i] = 0.0;
-    for (int i = 0; i < n; ++i) a.drplde[i] = 0.0;
+    std::memset(a.ddsddt, 0, n * sizeof(double));
+    std::memset(a.drplde, 0, n * sizeof(double));
     Tangent<kind> tangent{a.ddsdde, a.ddsddt, a.drplde};
     kernel.template update<kind, double>(increment, point, tangent);
 
@@ -109,9 +122,10 @@ constexpr int vumat_column(int i) {
 template <AnalysisKind kind>
 constexpr int vumat_columns = kind == AnalysisKind::plane_stress ? 4 : components(kind);
 
-// As many points as the batch has lanes, starting at `first`.
+// As many points as the batch has lanes, starting at `first`; false if that failed.
 template <AnalysisKind kind, bool finite_strain, class Kernel>
-LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int first, CallStatus& status) {
+LODE_INLINE bool vumat_lanes(const Kernel& kernel, const VumatArguments& a, TimeIncrement dt, int first,
+                             CallStatus& status) {
     constexpr int n = components(kind), normals = normal_components(kind);
     const std::ptrdiff_t stride = a.stride;
 
@@ -122,11 +136,12 @@ LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int f
         increment.strain_increment[i] = i < normals ? e : e + e;
         point.stress[i] = Batch::load_unaligned(a.stress_old + vumat_column<kind>(i) * stride + first);
     }
-    const auto sane = finiteness(increment.strain_increment) + finiteness(point.stress) == Batch(0.0);
+    const Batch twice_work_start = double_contraction(point.stress, increment.strain_increment);
+    const auto sane = are_finite(point.stress, increment.strain_increment, twice_work_start);
     if (!all(sane)) [[unlikely]] {
         point.fail(!sane, "strainInc or stressOld is not finite");
     } else {
-        increment.time_increment = a.time_increment;
+        increment.time_increment = dt;
         increment.time_end = a.time_end;
         increment.temperature_source[0] = a.temp_old + first;
         increment.temperature_source[1] = a.temp_new + first;
@@ -138,7 +153,6 @@ LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int f
         point.state = State<Batch>(a.state_old + first, a.state_new + first, stride, a.nstatev);
         point.wants_thickness_strain = kind == AnalysisKind::plane_stress;
         NoTangent none;
-        const Stress<kind, Batch> stress_old = point.stress;
         kernel.template update<kind, Batch>(increment, point, none);
         if (point.warning != nullptr) status.warning = point.warning;
         if (point.failure == nullptr) [[likely]] {
@@ -149,7 +163,8 @@ LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int f
             if constexpr (finite_strain) {
                 energy = point.elastic_energy * inverse_density;
             } else {
-                const Batch work = 0.5 * double_contraction(stress_old + point.stress, increment.strain_increment);
+                const Batch work =
+                    0.5 * (twice_work_start + double_contraction(point.stress, increment.strain_increment));
                 energy = Batch::load_unaligned(a.internal_energy_old + first) + work * inverse_density;
             }
             energy.store_unaligned(a.internal_energy_new + first);
@@ -160,7 +175,7 @@ LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int f
                 Batch(0.0).store_unaligned(a.stress_new + 2 * stride + first);
                 point.thickness_strain_increment.store_unaligned(a.strain_increment + 2 * stride + first);
             }
-            return;
+            return true;
         }
     }
     status.failure = point.failure;
@@ -173,6 +188,7 @@ LODE_INLINE void vumat_lanes(const Kernel& kernel, const VumatArguments a, int f
             status.refused_limit = point.refused_limit.get(static_cast<std::size_t>(lane));
             break;
         }
+    return false;
 }
 
 // Room for the points that do not fill a batch: copied to lanes of their own, the last one repeated.
@@ -247,34 +263,50 @@ inline void copy_state(const VumatArguments& a, int from_column) {
         std::copy_n(a.state_old + c * a.stride, a.nblock, a.state_new + c * a.stride);
 }
 
+// The points of a block that fill batches.
 template <AnalysisKind kind, bool finite_strain, class Kernel>
-LODE_INLINE void vumat_block(const Kernel& shared_kernel, const VumatArguments& a, CallStatus& status) {
+[[gnu::noinline]] void vumat_batches(const Kernel& shared_kernel, const VumatArguments& shared_block,
+                                     CallStatus& status) {
     // Copies whose address goes nowhere: what a store of results cannot change is loaded once a block.
     const Kernel kernel = shared_kernel;
-    const VumatArguments block = a;
-    constexpr int columns = vumat_columns<kind>;
-    Remainder remainder;
-    VumatArguments lanes = block;
-    for (int first = 0; first < block.nblock; first += batch_lanes) {
-        int at = first;
-        const bool fills_a_batch = block.nblock - first >= batch_lanes;
-        if (!fills_a_batch) [[unlikely]] {
-            if (Remainder::columns_needed(a, columns) > Remainder::columns_available) {
-                status.failure = "too many state and field variables for a block that does not fill the registers";
-                status.failed_point = first + 1;
-                return;
-            }
-            remainder.pack_from(a, columns, first, finite_strain);
-            lanes = remainder.packed();
-            at = 0;
-        }
-        vumat_lanes<kind, finite_strain>(kernel, lanes, at, status);
-        if (status.failure != nullptr) [[unlikely]] {
-            status.failed_point += first - at;
+    const VumatArguments block = shared_block;
+    const TimeIncrement dt = block.time_increment;
+    for (int first = 0; first + batch_lanes <= block.nblock; first += batch_lanes)
+        if (!vumat_lanes<kind, finite_strain>(kernel, block, dt, first, status)) [[unlikely]]
             return;
-        }
-        if (!fills_a_batch) remainder.unpack(columns, kind == AnalysisKind::plane_stress);
+}
+
+// The points left over, with the loop that serves the others.
+[[gnu::noinline]] inline void vumat_rest(const VumatArguments& a, int columns, bool stretch, bool thickness,
+                                         const void* kernel, CallStatus& status,
+                                         void (*run)(const void* kernel, const VumatArguments&, CallStatus&)) {
+    const int first = a.nblock - a.nblock % batch_lanes;
+    if (Remainder::columns_needed(a, columns) > Remainder::columns_available) {
+        status.failure = "too many state and field variables for a block that does not fill the registers";
+        status.failed_point = first + 1;
+        return;
     }
+    Remainder remainder;
+    remainder.pack_from(a, columns, first, stretch);
+    run(kernel, remainder.packed(), status);
+    if (status.failure != nullptr) status.failed_point += first;
+    else remainder.unpack(columns, thickness);
+}
+
+template <class Kernel>
+constexpr bool reads_stretch() {
+    if constexpr (requires { Kernel::reads_stretch; }) return Kernel::reads_stretch;
+    else return false;
+}
+
+template <AnalysisKind kind, bool finite_strain, class Kernel>
+LODE_INLINE void vumat_block(const Kernel& kernel, const VumatArguments& a, CallStatus& status) {
+    vumat_batches<kind, finite_strain>(kernel, a, status);
+    if (a.nblock % batch_lanes == 0 || status.failure != nullptr) return;
+    vumat_rest(a, vumat_columns<kind>, finite_strain || reads_stretch<Kernel>(), kind == AnalysisKind::plane_stress,
+               &kernel, status, [](const void* k, const VumatArguments& rest, CallStatus& s) {
+                   vumat_batches<kind, finite_strain>(*static_cast<const Kernel*>(k), rest, s);
+               });
 }
 
 template <class Model, AnalysisKind kind>
@@ -318,10 +350,14 @@ void vumat_probe(const void* material, const VumatArguments& a, CallStatus&) {
 }
 
 template <class Model, int k>
-constexpr void fill_kind(ModelEntry& entry) {
+constexpr void fill_umat(std::array<ModelEntry::UmatFunction, kind_count>& functions) {
+    constexpr auto kind = static_cast<AnalysisKind>(k);
+    if constexpr (serves(Model::description, kind)) functions[k] = &umat_call<Model, kind>;
+}
+template <class Model, int k>
+constexpr void fill_vumat(ModelEntry& entry) {
     constexpr auto kind = static_cast<AnalysisKind>(k);
     if constexpr (serves(Model::description, kind)) {
-        entry.umat[k] = &umat_call<Model, kind>;
         entry.vumat[k] = &vumat_call<Model, kind>;
         entry.probe[k] = &vumat_probe<Model, kind>;
     }
@@ -329,9 +365,24 @@ constexpr void fill_kind(ModelEntry& entry) {
 
 }  // namespace detail
 
+// The UMAT side of a model. The two sides want different compiler options, so each has a translation unit of its own.
 template <MaterialModel Model>
-constexpr ModelEntry make_entry() {
+constexpr std::array<ModelEntry::UmatFunction, kind_count> make_umat_functions() {
+    std::array<ModelEntry::UmatFunction, kind_count> functions{};
+    detail::fill_umat<Model, 0>(functions);
+    detail::fill_umat<Model, 1>(functions);
+    detail::fill_umat<Model, 2>(functions);
+    detail::fill_umat<Model, 3>(functions);
+    detail::fill_umat<Model, 4>(functions);
+    detail::fill_umat<Model, 5>(functions);
+    return functions;
+}
+
+// All the rest.
+template <MaterialModel Model>
+constexpr ModelEntry make_entry(const ModelEntry::UmatFunction* umat_functions) {
     ModelEntry entry{};
+    entry.umat = umat_functions;
     entry.description = &Model::description;
     entry.size = sizeof(Model);
     entry.alignment = alignof(Model);
@@ -349,12 +400,12 @@ constexpr ModelEntry make_entry() {
     entry.required_state = [](const void* material, AnalysisKind kind) {
         return static_cast<const Model*>(material)->required_state(kind);
     };
-    detail::fill_kind<Model, 0>(entry);
-    detail::fill_kind<Model, 1>(entry);
-    detail::fill_kind<Model, 2>(entry);
-    detail::fill_kind<Model, 3>(entry);
-    detail::fill_kind<Model, 4>(entry);
-    detail::fill_kind<Model, 5>(entry);
+    detail::fill_vumat<Model, 0>(entry);
+    detail::fill_vumat<Model, 1>(entry);
+    detail::fill_vumat<Model, 2>(entry);
+    detail::fill_vumat<Model, 3>(entry);
+    detail::fill_vumat<Model, 4>(entry);
+    detail::fill_vumat<Model, 5>(entry);
     return entry;
 }
 

@@ -46,7 +46,7 @@ struct ModelEntry {
     int (*required_state)(const void* material, AnalysisKind kind);
     using UmatFunction = void (*)(const void* material, const UmatArguments& arguments, CallStatus& status);
     using VumatFunction = void (*)(const void* material, const VumatArguments& arguments, CallStatus& status);
-    UmatFunction umat[kind_count];  // null where the kind is not served
+    const UmatFunction* umat;  // a table with an entry for each kind, null where it is not served
     VumatFunction vumat[kind_count];
     VumatFunction probe[kind_count];  // first call of an explicit host: elastic, no history
 };

@@ -12,13 +12,22 @@
 
 namespace lode {
 
+// DTIME with its reciprocal (0 if DTIME is 0): the division is done once for a whole block.
+struct TimeIncrement {
+    double value = 0.0, inverse = 0.0;
+
+    TimeIncrement() = default;
+    LODE_INLINE TimeIncrement(double dt) : value(dt), inverse(dt > 0.0 ? 1.0 / dt : 0.0) {}
+    LODE_INLINE operator double() const { return value; }
+};
+
 // The loading of one increment.
 template <AnalysisKind kind, class Real>
 struct Increment {
     using S = Storage<Real>;
 
     Strain<kind, Real> strain_increment;  // DSTRAN, engineering shears; cohesive: separation / thickness
-    double time_increment = 0.0;          // DTIME
+    TimeIncrement time_increment;         // DTIME
     double time_end = 0.0;                // total time at the end of the increment
 
     // Where the rest is found. UMAT: temperature, field at the start and their changes; VUMAT: old and new values,
@@ -30,16 +39,16 @@ struct Increment {
     const double* rotation_source = nullptr;  // DROT column by column; null where the frame turns with the material
     std::ptrdiff_t stride = 1;
 
-    Real temperature_increment() const { return change(temperature_source, 0); }
-    Real temperature_end() const { return end(temperature_source, 0); }
+    LODE_INLINE Real temperature_increment() const { return change(temperature_source, 0); }
+    LODE_INLINE Real temperature_end() const { return end(temperature_source, 0); }
     // Field variable `number` (1-based).
-    Real field_increment(int number) const { return change(field_source, number - 1); }
-    Real field_end(int number) const { return end(field_source, number - 1); }
-    Real field_start(int number) const { return load<Real>(field_source[0] + (number - 1) * stride); }
-    Real element_length() const { return load<Real>(element_length_source); }
+    LODE_INLINE Real field_increment(int number) const { return change(field_source, number - 1); }
+    LODE_INLINE Real field_end(int number) const { return end(field_source, number - 1); }
+    LODE_INLINE Real field_start(int number) const { return load<Real>(field_source[0] + (number - 1) * stride); }
+    LODE_INLINE Real element_length() const { return load<Real>(element_length_source); }
 
     // DFGRD1. In a VUMAT the stretch U takes its place: sigma(U) is the corotational stress (page 50, 1.7).
-    Matrix3<Real> deformation_gradient() const {
+    LODE_INLINE Matrix3<Real> deformation_gradient() const {
         Matrix3<Real> f;
         if constexpr (is_batch<Real>) {
             const auto u = [&](int c) { return load<Real>(deformation_source + c * stride); };
@@ -58,9 +67,9 @@ struct Increment {
         return f;
     }
 
-    bool has_rotation() const { return rotation_source != nullptr; }
+    LODE_INLINE bool has_rotation() const { return rotation_source != nullptr; }
     // DROT; ask only if there is one.
-    Matrix3<Real> rotation() const {
+    LODE_INLINE Matrix3<Real> rotation() const {
         Matrix3<Real> r;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) r(i, j) = Real(rotation_source[i + 3 * j]);
@@ -68,12 +77,12 @@ struct Increment {
     }
 
   private:
-    Real change(const S* const source[2], int column) const {
+    LODE_INLINE Real change(const S* const source[2], int column) const {
         if constexpr (is_batch<Real>)
             return load<Real>(source[1] + column * stride) - load<Real>(source[0] + column * stride);
         else return source[1][column];
     }
-    Real end(const S* const source[2], int column) const {
+    LODE_INLINE Real end(const S* const source[2], int column) const {
         if constexpr (is_batch<Real>) return load<Real>(source[1] + column * stride);
         else return source[0][column] + source[1][column];
     }
@@ -86,14 +95,18 @@ class State {
   public:
     using S = Storage<Real>;
     State() = default;
-    State(const S* old_values, S* new_values, std::ptrdiff_t stride, int count)
+    LODE_INLINE State(const S* old_values, S* new_values, std::ptrdiff_t stride, int count)
         : old_(old_values), new_(new_values), stride_(stride), count_(count) {}
 
-    Real operator[](int index) const { return load<Real>(old_ + (index - 1) * stride_); }
-    void set(int index, const Real& value) { store<Real>(new_ + (index - 1) * stride_, value); }
+    LODE_INLINE Real operator[](int index) const { return load<Real>(old_ + (index - 1) * stride_); }
+    LODE_INLINE void set(int index, const Real& value) { store<Real>(new_ + (index - 1) * stride_, value); }
+    // Leaves an entry as it was.
+    LODE_INLINE void keep([[maybe_unused]] int index) {
+        if constexpr (is_batch<Real>) set(index, (*this)[index]);
+    }
     // Entries the host provides (NSTATV).
-    int count() const { return count_; }
-    bool has(int index) const { return index <= count_; }
+    LODE_INLINE int count() const { return count_; }
+    LODE_INLINE bool has(int index) const { return index <= count_; }
 
   private:
     const S* old_ = nullptr;
@@ -115,22 +128,22 @@ struct Point {
 
     // The increment cannot be done in the lanes of `where`: nothing has been written. UMAT asks for `smaller` times the
     // increment, VUMAT stops with `reason`.
-    void fail(const Mask<Real>& where, const char* reason, double smaller = 0.25) {
+    LODE_INLINE void fail(const Mask<Real>& where, const char* reason, double smaller = 0.25) {
         failed = where;
         failure = reason;
         time_step_ratio = smaller;
     }
     // What the host passed makes no sense for this material, whatever the increment: the analysis ends with
     // "<what> = <value> must be <allowed> <limit>". A limit of 0 is not printed.
-    void refuse(const Mask<Real>& where, const char* what, const Real& value, const char* allowed,
-                const Real& limit = Real(0.0)) {
+    LODE_INLINE void refuse(const Mask<Real>& where, const char* what, const Real& value, const char* allowed,
+                            const Real& limit = Real(0.0)) {
         fail(where, what);
         refused_value = value;
         refused_limit = limit;
         refusal = allowed;
     }
     // Something the user should know once, though the update goes on.
-    void warn(const char* message) { warning = message; }
+    LODE_INLINE void warn(const char* message) { warning = message; }
 
     Mask<Real> failed = Mask<Real>(false);
     const char* failure = nullptr;
@@ -150,8 +163,8 @@ struct Tangent {
     double heat_rate = 0.0;              // RPL
     double heat_rate_temperature = 0.0;  // DRPLDT
 
-    double& operator()(int i, int j) { return stiffness[i + n * j]; }
-    double operator()(int i, int j) const { return stiffness[i + n * j]; }
+    LODE_INLINE double& operator()(int i, int j) { return stiffness[i + n * j]; }
+    LODE_INLINE double operator()(int i, int j) const { return stiffness[i + n * j]; }
 };
 
 // Passed instead of a Tangent by callers that need none and shall not pay for it.

@@ -9,6 +9,8 @@
 // the other lanes of its batch.
 #pragma once
 
+#include <optional>
+
 #include "lode/numerics/scalar.hpp"
 
 namespace lode {
@@ -17,12 +19,18 @@ template <class Real>
 struct Residual {
     Real value, slope;
 };
-
+// With the second derivative the iterates are Halley's, of third order, at the price of a few multiplications.
 template <class Real>
+struct CurvedResidual {
+    Real value, slope, curvature;
+};
+
+template <class Real, class R = Residual<Real>>
 struct Root {
     Real x;
     Mask<Real> converged;  // true in lanes that were not active
     int iterations;        // evaluations of the residual
+    R last;                // what the residual returned at x
 };
 
 // What the caller knows of the sign at the ends. `unknown` costs one more evaluation, and only if Newton is not enough.
@@ -142,81 +150,100 @@ inline Mask<Real> guarded_step(Guard<Real>& g, const Mask<Real>& here, int itera
     return closed;
 }
 
-template <Slope direction, class Real, class F>
-inline Root<Real> solve(const F& residual, const Real& lower, const Real& upper, const Real& start,
-                        const Real& tolerance, const Mask<Real>& active, int max_iterations) {
+// x - f/f', or x - f f'/(f'^2 - f f''/2).
+template <class Real, class R>
+LODE_INLINE Real newton_iterate(const Real& x, const R& r) {
+    if constexpr (requires { r.curvature; })
+        return x - r.value * r.slope / (r.slope * r.slope - 0.5 * r.value * r.curvature);
+    else return x - r.value / r.slope;
+}
+
+// Where the iterations stand.
+template <class Real>
+struct Progress {
+    Real x, previous;         // iterate, |residual| before it
+    Residual<Real> residual;  // at x
+    Real newton;              // the next iterate, if it is `good`
+    Mask<Real> done, good, found;
+    int iteration;
+};
+
+// One iteration where Newton alone is not enough. Out of line, and everything else by value, so that the common path
+// keeps its registers.
+template <class Real>
+[[gnu::noinline]] Progress<Real> advance(Guard<Real>& guard, Progress<Real> at) {
     using M = Mask<Real>;
+    const M guarded = !at.done && (guard.active || !(at.good && M(at.iteration <= unguarded)));
+    const M plain = !at.done && !guarded;
+    guard.active = guard.active || guarded;
+    Real next = at.x, last = at.previous;
+    const M closed = guarded_step(guard, guarded, at.iteration, at.residual, at.newton, next, last);
+    at.x = select(at.done, at.x, select(plain, at.newton, next));
+    at.previous = select(plain, abs(at.residual.value), last);
+    at.done = at.done || closed;
+    at.found = at.found || (closed && min(guard.lower_size, guard.upper_size) < Real(infinity));
+    return at;
+}
+
+// The residual is evaluated in one place: two copies of it could round differently, and the answer of a lane would
+// depend on its neighbours.
+template <Slope direction, class Real, class F>
+LODE_INLINE auto solve(const F& residual, const Real& lower, const Real& upper, const Real& start,
+                       const Real& tolerance, const Mask<Real>& active, int max_iterations) {
+    using M = Mask<Real>;
+    using R = decltype(residual(start));
     Real x = select(start > lower, start, lower);
     x = select(x < upper, x, upper);
     x = select(active, x, start);
     Real previous(infinity);
-    M done = !active;
-
-    const int newton_limit = min(unguarded, max_iterations - 1);
-    Residual<Real> r;
-    Real newton;
-    M good;
-    int iteration = 1;
-    for (;; ++iteration) {
-        r = residual(x);
+    M done = !active, found = done;
+    std::optional<Guard<Real>> guard;
+    for (int iteration = 1;; ++iteration) {
+        const R r = residual(x);
         const Real size = abs(r.value);
-        done = done || size <= tolerance;
-        if (all(done)) return {x, done, iteration};
-        newton = x - r.value / r.slope;
-        good = newton >= lower && newton <= upper && size <= 0.5 * previous;
-        if (iteration > newton_limit || !all(done || good)) break;
-        x = select(done, x, newton);
-        previous = size;
-    }
-
-    Guard<Real> guard(lower, upper, direction);
-    M found = done;
-    while (iteration < max_iterations) {
-        const M guarded = !done && (guard.active || !(good && M(iteration <= unguarded)));
-        const M plain = !done && !guarded;
-        guard.active = guard.active || guarded;
-        Real next = x, last = previous;
-        const M closed = guarded_step(guard, guarded, iteration, r, newton, next, last);
-        x = select(done, x, select(plain, newton, next));
-        previous = select(plain, abs(r.value), last);
-        done = done || closed;
-        found = found || (closed && min(guard.lower_size, guard.upper_size) < Real(infinity));
-        if (all(done)) break;
-        r = residual(x);
-        ++iteration;
-        const M small = !done && abs(r.value) <= tolerance;
+        const M small = !done && size <= tolerance;
         done = done || small;
         found = found || small;
-        if (all(done)) break;
-        newton = x - r.value / r.slope;
-        good = newton >= lower && newton <= upper && abs(r.value) <= 0.5 * previous;
+        if (all(done) || iteration >= max_iterations) return Root<Real, R>{x, found, iteration, r};
+        const Real newton = newton_iterate(x, r);
+        const M good = newton >= lower && newton <= upper && size <= 0.5 * previous;
+        if (guard || iteration > unguarded || !all(done || good)) [[unlikely]] {
+            if (!guard) guard.emplace(lower, upper, direction);
+            const Progress<Real> next =
+                advance<Real>(*guard, {x, previous, {r.value, r.slope}, newton, done, good, found, iteration});
+            x = next.x, previous = next.previous, done = next.done, found = next.found;
+        } else {
+            x = select(done, x, newton);
+            previous = size;
+        }
     }
-    return {x, found, iteration};
 }
 
 }  // namespace root_detail
 
 // Solves residual(x).value = 0 for x in [lower, upper] (both finite), where the residuals of the ends have opposite
-// signs or one of them is zero. `residual(Real)` returns Residual<Real>, value and slope; it is called at most once an
+// signs or one of them is zero. `residual(Real)` returns Residual<Real>, CurvedResidual<Real> or
+// anything with these members; it is called at most once an
 // iteration and never outside the bracket. Stops where |value| <= tolerance, or where a bracket with a change of sign
 // has shrunk to rounding level. Lanes that are not `active` return `start`. An automatic-differentiation number is
 // solved for its value; the derivatives follow from the implicit function theorem, dx = -d(residual at fixed x)/slope.
 // Source: rtsafe (Press et al., Numerical Recipes, 9.4) and Brent (1973, ch. 4) for the safeguards.
 template <Slope direction = Slope::unknown, class Real, class F>
-inline Root<Real> solve_bracketed(const F& residual, const Real& lower, const Real& upper, const Real& start,
-                                  const Real& tolerance, const Mask<Real>& active = Mask<Real>(true),
-                                  int max_iterations = 100) {
+LODE_INLINE auto solve_bracketed(const F& residual, const Real& lower, const Real& upper, const Real& start,
+                                 const Real& tolerance, const Mask<Real>& active = Mask<Real>(true),
+                                 int max_iterations = 100) {
     if constexpr (is_differentiated<Real>) {
-        if (!active) return {start, true, 0};
+        using R = decltype(residual(start));
+        if (!active) return Root<Real, R>{start, true, 0, residual(start)};
         const auto plain = [&](double x) {
-            const Residual<Real> r = residual(Real(x));
+            const R r = residual(Real(x));
             return Residual<double>{value_of(r.value), value_of(r.slope)};
         };
         const Root<double> root = root_detail::solve<direction, double>(
             plain, value_of(lower), value_of(upper), value_of(start), value_of(tolerance), true, max_iterations);
-        const Residual<Real> r = residual(Real(root.x));
-        return {Real(root.x) - (r.value - Real(value_of(r.value))) / Real(value_of(r.slope)), root.converged,
-                root.iterations};
+        const R r = residual(Real(root.x));
+        const Real x = Real(root.x) - (r.value - Real(value_of(r.value))) / Real(value_of(r.slope));
+        return Root<Real, R>{x, root.converged, root.iterations, residual(x)};
     } else {
         return root_detail::solve<direction, Real>(residual, lower, upper, start, tolerance, active, max_iterations);
     }

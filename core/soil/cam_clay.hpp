@@ -34,7 +34,7 @@ struct CamClay {
         if (state[cam_clay::INIT] != 0.0) {
             v = -trace(e);
             e = deviator(e);
-        } else if (initial_state.find(stress, 0.0, v, e, pc).refusal != nullptr) {
+        } else if (initial_state.find(stress, 0.0, v, e, pc).refused != nullptr) {
             v = elasticity.kappa * log(initial_state.p_ini / elasticity.p_ref);
             e = {};
         }

@@ -38,6 +38,11 @@ inline V operator+(const V& a, const V& b) {
     return r;
 }
 template <VoigtVector V>
+LODE_INLINE V& operator+=(V& a, const V& b) {
+    for (int i = 0; i < V::size(); ++i) a[i] = a[i] + b[i];
+    return a;
+}
+template <VoigtVector V>
 inline V operator-(const V& a, const V& b) {
     V r;
     for (int i = 0; i < V::size(); ++i) r[i] = a[i] - b[i];

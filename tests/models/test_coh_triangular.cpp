@@ -49,7 +49,7 @@ void expect_row(const Answer& a, const Numbers& tractions, std::initializer_list
 TEST(Sawtooth, TableOfStrengthLaws) {
     const double constants[] = {100000, 30, 0.3, 50000, 40, 0.9};
     const Properties p(CohTriangular::description, "T", constants, 6);
-    const Sawtooth law(p, 1, "n");
+    const Sawtooth law(p, {1, 2, 3, 0, 0, "n"});
     EXPECT_NEAR(law.elastic_limit, 0.0003, 1e-18);
     EXPECT_NEAR(law.end, 0.02, 1e-17);
     const double delta = law.elastic_limit + 0.4 * (law.end - law.elastic_limit), q = law.integrity(delta);

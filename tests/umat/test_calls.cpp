@@ -217,7 +217,12 @@ TEST(Vumat, TwoDirectComponents) {
            props, one, strain_inc, in, in, in, in, in, stress_old, in, in, in, in, in, in, in, stress_new, state_new,
            intern, inelas);
     EXPECT_EQ(reals.damage(), "");
-    if (captured_messages().stops > 0) return;
+    if (captured_messages().stops > 0) {
+        // Not by chance, because the guard zone is not a number.
+        EXPECT_NE(captured_messages().errors.front().find("(2,1)"), std::string::npos)
+            << captured_messages().errors.front();
+        return;
+    }
     for (std::size_t i = 0; i < points; ++i) EXPECT_NEAR(stress_new[i], 200000.0 / 0.91 * 1e-3, 1e-11);
 }
 

@@ -1,0 +1,86 @@
+// COH_EXPONENTIAL: decoupled exponential softening in both modes (page 40; Nairn, 7.6.4 and 7.9).
+#pragma once
+
+#include "lode/cohesive/decoupled.hpp"
+#include "lode/cohesive/exponential_laws.hpp"
+
+namespace lode {
+
+struct CohExponential : DecoupledInterface<AbaqusExponential, AbaqusExponential> {
+    static constexpr lode_parameter parameters[] = {
+        required("K_N", "initial stiffness, mode I", "stress/length", above(0.0)),
+        required("SIG_N", "cohesive stress, mode I", "stress", above(0.0)),
+        required("GIC", "toughness, mode I", "energy/area", above(0.0), "must exceed SIG_N^2/(2 K_N)"),
+        required("ALPHA_N", "decay exponent, mode I", "-", above(0.0)),
+        required("K_T", "initial stiffness, mode II", "stress/length", above(0.0)),
+        required("SIG_T", "cohesive stress, mode II", "stress", above(0.0)),
+        required("GIIC", "toughness, mode II", "energy/area", above(0.0), "must exceed SIG_T^2/(2 K_T)"),
+        required("ALPHA_T", "decay exponent, mode II", "-", above(0.0)),
+        failure_exponent(),
+        contact_option(),
+        contact_stiffness(),
+        constitutive_thickness(),
+    };
+    static constexpr double epoxy[] = {100000.0, 30.0, 0.3, 3.0, 50000.0, 40.0, 0.9, 5.0};
+    static constexpr double layer[] = {20000.0, 15.0, 0.5, 0.2, 8000.0, 25.0, 1.5, 7.0, 2.0, 2, 0.0, 0.2};
+    static constexpr double concrete[] = {3000.0, 3.0, 0.1, 4.0, 1500.0, 4.0, 0.6, 4.0, 0.0, 1, 30000.0};
+    static constexpr lode_sample samples[] = {
+        {"EPOXY", "toughened epoxy adhesive, N, mm", epoxy, count_of(epoxy), 0.005, cohesive_kinds},
+        {"LAYER", "adhesive layer 0.2 mm thick, quadratic criterion, damaged stiffness in compression, N, mm", layer,
+         count_of(layer), 0.02, cohesive_kinds},
+        {"CONCRETE", "concrete joint, modes fail on their own, stiff contact, N, mm", concrete, count_of(concrete),
+         0.02, cohesive_kinds},
+    };
+    static constexpr lode_algorithm algorithms[] = {
+        {"each mode by its law, failure located on the path: exact for a straight path", 0, 0.0, HUGE_VAL},
+    };
+    static constexpr lode_model description = {
+        .keyword = "COH_EXPONENTIAL",
+        .title = "Exponential traction law, decoupled modes",
+        .family = "cohesive",
+        .purpose =
+            "Linear elastic up to the cohesive stress, then softening by the exponential damage evolution of Abaqus, "
+            "fast "
+            "at first and slow later, in opening and in sliding each by itself, with a mixed-mode criterion in the "
+            "released energies.",
+        .source = "Nairn, chapter 7, sections 7.6.4 and 7.9",
+        .kinds = cohesive_kinds,
+        .traits = LODE_HISTORY_STRESS,
+        .parameters = parameters,
+        .parameter_count = count_of(parameters),
+        .required_count = 8,
+        .state = interface_states,
+        .state_count = count_of(interface_states),
+        .samples = samples,
+        .sample_count = count_of(samples),
+        .algorithms = algorithms,
+        .algorithm_count = count_of(algorithms),
+        .limits =
+            "- GIC <= SIG_N^2/(2 K_N), or the same in mode II, would create energy: refused with the limiting value.\n"
+            "- ALPHA near 0 is the triangular law; a large ALPHA gives a long tail, u_c = u_e + (2 G/sig - "
+            "u_e)/f(ALPHA), "
+            "and a steep start.\n"
+            "- Failure by the mixed criterion drops the tractions to zero at one instant; up to half of the energy "
+            "released before goes into that drop (GDROP). No tangent exists there: stabilise, or use small "
+            "increments.\n"
+            "- The tangent jumps where u_n changes sign, at the onset of damage and at load reversal; DDSDDE is the "
+            "one-sided tangent of the increment.\n"
+            "- CONTACT = 2, or deleting the element at failure, lets the faces interpenetrate; use CONTACT = 1 and do "
+            "not delete in compression.\n"
+            "- W is a trapezoid sum and inaccurate for large increments; SSE + SPD is exact.\n"
+            "- The element must resolve the softening zone (length about E GIC/SIG_N^2) by at least three elements, "
+            "and softening in series with a bar of length L snaps back where -S'(u_n) > E/L.\n"
+            "- The modes do not weaken each other before failure: for mixed-mode work a coupled law is better.\n",
+    };
+
+    explicit CohExponential(const Properties& p)
+        : DecoupledInterface{AbaqusExponential(p, {1, 2, 3, 4, 0, "n"}),
+                             AbaqusExponential(p, {5, 6, 7, 8, 0, "t"}),
+                             p[9],
+                             p[9],
+                             Contact(p.code(10), p[11], p[1]),
+                             p[12],
+                             1.0 / p[12]} {}
+};
+
+}  // namespace lode

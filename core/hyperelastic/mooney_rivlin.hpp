@@ -1,0 +1,231 @@
+// MOONEY_RIVLIN: compressible Mooney-Rivlin solid (page 50, section 2; Nairn, 9.6).
+//     W = G1/2 (I1bar - 3) + G2/2 (I2bar - 3) + U(J),     Bbar = J^(-2/3) B
+//     J sigma = G1 dev(Bbar) + G2 dev(I1bar Bbar - Bbar^2) + J U' I
+// at the mechanical deformation F* = F exp(-e). The stars of the page are dropped below.
+#pragma once
+
+#include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/hyperelastic/dilatational_energy.hpp"
+#include "lode/hyperelastic/plane_stress.hpp"
+#include "lode/hyperelastic/spatial_tangent.hpp"
+#include "lode/material/properties.hpp"
+
+namespace lode {
+
+struct MooneyRivlin {
+    static constexpr lode_parameter parameters[] = {
+        required("G1", "first shear constant", "stress", at_least(0.0)),
+        required("K", "bulk modulus", "stress", above(0.0)),
+        optional("G2", "second shear constant", "stress", at_least(0.0), 0.0, "G1 + G2 must be > 0"),
+        dilatational_option(0.0),
+        optional("ALPHA", "thermal expansion", "1/temp", any_value(), 0.0),
+        optional("BETA", "expansion per unit of field 1", "1/field", any_value(), 0.0),
+    };
+    static constexpr lode_state states[] = {
+        {"EPSRES", "residual strain, logarithm of the free stretch", 0.0},
+        {"F33M1", "total thickness stretch - 1, plane stress only", 0.0},
+    };
+    static constexpr double rubber[] = {0.4, 500.0, 0.1};
+    static constexpr double silicone[] = {0.2, 5.0};
+    static constexpr double foam[] = {0.0, 1.0, 0.5, 1.0};
+    static constexpr double tyre[] = {0.5, 60.0, 0.2, 2.0, 2e-4, 3e-3};
+    static constexpr unsigned served = LODE_SOLID | LODE_PLANE_STRAIN | LODE_PLANE_STRESS;
+    static constexpr lode_sample samples[] = {
+        {"RUBBER", "natural rubber, nearly incompressible, MPa", rubber, count_of(rubber), 0.5, served},
+        {"SILICONE", "soft silicone without second constant, MPa", silicone, count_of(silicone), 0.4, served},
+        {"FOAM", "second constant only, U = K/2 (J - 1)^2, MPa", foam, count_of(foam), 0.3, served},
+        {"TYRE", "filled rubber that swells, U = K/2 (ln J)^2, MPa, 1/K, 1/(kg/m3)", tyre, count_of(tyre), 0.3, served},
+    };
+    static constexpr lode_algorithm algorithms[] = {
+        {"total, exact for any increment", 0, 0.0, HUGE_VAL},
+    };
+    static constexpr lode_model description = {
+        .keyword = "MOONEY_RIVLIN",
+        .title = "Compressible Mooney-Rivlin solid",
+        .family = "hyperelastic",
+        .purpose =
+            "Rubber with split shape and volume response, for stretches up to about 2; with the second constant G2 = 0 "
+            "a neo-Hookean solid. Thermal and moisture expansion and three dilatational energies.",
+        .source = "Nairn, chapter 9, section 9.6 (eqs. 9.48-9.56)",
+        .kinds = served,
+        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS,
+        .parameters = parameters,
+        .parameter_count = count_of(parameters),
+        .required_count = 2,
+        .state = states,
+        .state_count = count_of(states),
+        .samples = samples,
+        .sample_count = count_of(samples),
+        .algorithms = algorithms,
+        .algorithm_count = count_of(algorithms),
+        .limits =
+            "- Geometric non-linearity is required; without it the host passes F = I and the stress stays zero.\n"
+            "- det F <= 0 or a deformation that is not finite asks for a smaller increment.\n"
+            "- G2 < 0 is refused: W would be unbounded below in equibiaxial stretch.\n"
+            "- UJ = 2: hydrostatic tension has its maximum K/e = 0.36788 K at J = e; beyond it the bulk modulus is "
+            "negative. UJ = 1: the pressure stays below K as J -> 0, so an element can be crushed to nothing, and "
+            "(J U')' < 0 for J < 1/2. Only UJ = 0 has infinite energy at both ends.\n"
+            "- UJ = 2 with low K/G: the lateral contraction in tension reverses (K/G = 10: at stretch 6.1). Use it "
+            "for K/G > 50.\n"
+            "- Plane stress with UJ = 1: the thickness equation may have several roots for J < 1/2; the one reached "
+            "from the last thickness is taken. If there is none a smaller increment is asked for.\n"
+            "- K/G > 1e3: stress and tangent keep their accuracy, but low-order elements lock.\n"
+            "- G2 > 0 is not polyconvex in I2bar: ellipticity can be lost at extreme combined compression and shear.\n"
+            "- The residual strain accumulates from the first call: the state there is free of it.\n",
+    };
+
+    explicit MooneyRivlin(const Properties& p)
+        : shear1(p[1]), shear2(p[3]), dilatation{p.code(4), p[2]}, residual{p[5], p[6]} {
+        if (!(shear1 + shear2 > 0.0)) p.refuse(1, "> 0 where G2 = 0");
+    }
+
+    int required_state(AnalysisKind) const { return count_of(states); }
+
+    template <AnalysisKind kind>
+    void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& tangent) const {
+        const double g = shear1 + shear2, k = dilatation.modulus;
+        IsotropicModuli moduli =
+            IsotropicModuli::from_young_poisson(9.0 * k * g / (3.0 * k + g), (1.5 * k - g) / (3.0 * k + g));
+        moduli.shear = g;  // without the rounding errors of nu near 1/2
+        moduli.lame = k - 2.0 / 3.0 * g;
+        moduli.template set_stiffness<kind>(tangent);
+    }
+
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
+        State<Real>& state = point.state;
+        const Real e = residual.end(increment, state[1]);
+        Real f33m1 = state[2];
+        auto k = residual.mechanical(increment, e);
+
+        if constexpr (is_plane_stress) {
+            const Mask<Real> possible = k.jacobian > Real(0.0) && is_finite(trace(k.b));
+            if (all(possible)) {
+                const ThicknessEquation<Real> equation(*this, k);
+                const auto root = solve_thickness(equation, thickness_of_state(f33m1, e), equation.scale());
+                if (!all(root.converged))
+                    return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
+                set_thickness(k, 1.0 + root.d, root.d);
+            }
+        }
+
+        // J sigma = G1 c^-2 dev b + G2 c^-4 [(1 + tr b) dev b - dev b^2] + J U' I,   c = cbrt J
+        const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
+        const Real c = cbrt(v.J), inverse2 = 1.0 / (c * c);  // J^(-2/3)
+        const Real mean = dilatation.derivative(v);
+        const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
+        auto stress = g1 * k.b;
+        if (shear2 != 0.0) stress = g2 * ((1.0 + trace(k.b)) * k.b - square_of(k.b)) + stress;
+        stress = deviator(stress);
+        add_to_normals(stress, 3, mean);
+
+        const Real energy = v.inverse * (shape_energy<kind>(k, c, inverse2) + dilatation.energy(v));
+        const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress) + energy);
+        if (!all(sound)) [[unlikely]]
+            return point.fail(!sound, "det F <= 0, or the deformation is not finite");
+        point.stress = without_thickness<kind>(stress);
+        point.elastic_energy = energy;
+
+        if constexpr (wants_tangent<T>) {
+            set_tangent_of_kind<kind>(
+                tangent, point.stress, residual.thermal_expansion != 0.0,
+                [&](auto& full) { set_tangent(k, v, inverse2, full); },
+                [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
+        }
+
+        if constexpr (is_plane_stress) {
+            const Real f33m1_old = f33m1;
+            f33m1 = residual.total_thickness_change(k.h(2, 2), e);
+            if (point.wants_thickness_strain)
+                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
+        }
+        state.set(1, e);
+        state.set(2, f33m1);
+    }
+
+    double shear1, shear2;
+    DilatationalEnergy dilatation;
+    ResidualStrain residual;
+
+  private:
+    // G1/2 (I1bar - 3) + G2/2 (I2bar - 3) in terms of second order: with c^3 = J and x = I1 - 3 - 2 (J - 1)
+    //     c^2 (I1bar - 3) = x + (c - 1)^2 (2 c + 1),
+    //     c^4 (I2bar - 3) = 2 x + (second invariant of b) - (c - 1)^2 (3 c^2 + 2 c + 1)
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE Real shape_energy(const Kinematics<kind, Real>& k, const Real& c, const Real& inverse2) const {
+        const Real x = first_invariant_excess<kind>(k.h);
+        const Real r = square(k.j / (1.0 + c + c * c));  // (c - 1)^2
+        Real energy = 0.5 * shear1 * inverse2 * (x + r * (2.0 * c + 1.0));
+        if (shear2 == 0.0) return energy;
+        const Real t = trace(k.b), second = 0.5 * (t * t - double_contraction(k.b, k.b));
+        const Real excess = 2.0 * x + second - r * (1.0 + c * (2.0 + 3.0 * c));
+        return energy + 0.5 * shear2 * square(inverse2) * excess;
+    }
+
+    // Section 2.3, with m = I1bar Bbar - Bbar^2:
+    //     J C = M(G1 Bbar + G2 m) - (2/3) [(G1 Bbar + 2 G2 m) (x) 1 + 1 (x) (...)]
+    //         + [2/9 (G1 I1bar + 4 G2 I2bar) + J (J U')'] 1 (x) 1 + 2 G2 [Bbar (x) Bbar - (D -> Bbar D Bbar)]
+    template <AnalysisKind kind, AnalysisKind full>
+    LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v, double inverse2,
+                                 Tangent<full>& c) const {
+        auto b = k.b;
+        add_to_normals(b, 3, 1.0);
+        b = inverse2 * b;
+        const double i1 = trace(b), g1 = shear1 * v.inverse, g2 = shear2 * v.inverse;
+        auto stretching = g1 * b, coupling = (-2.0 / 3.0 * g1) * b;
+        double volumetric = 2.0 / 9.0 * g1 * i1 + dilatation.stiffness(v);
+        if (shear2 != 0.0) {
+            const auto m = i1 * b - square_of(b);
+            stretching = stretching + g2 * m;
+            coupling = coupling - (4.0 / 3.0 * g2) * m;
+            volumetric += 4.0 / 9.0 * g2 * trace(m);  // tr m = 2 I2bar
+        }
+        set_stretching_tangent(c, 1.0, stretching, volumetric);
+        add_volume_coupling(c, coupling);
+        if (shear2 != 0.0) {
+            add_dyad(c, 2.0 * g2, b);
+            add_sandwich(c, -2.0 * g2, b);
+        }
+    }
+
+    // 3 tau33 = G1 c^-2 (2z - s) + G2 c^-4 [2z - s + z s - 2 d] + 3 J U' with z = b33 = expm1(2y), and s, d the trace
+    // and determinant of the in-plane b (section 2.2).
+    template <class Real>
+    struct ThicknessEquation {
+        double shear1, shear2;
+        DilatationalEnergy dilatation;
+        Real area_change, area, log_area, trace_b, det_b;
+
+        ThicknessEquation(const MooneyRivlin& model, const Kinematics<AnalysisKind::plane_stress, Real>& k)
+            : shear1(model.shear1),
+              shear2(model.shear2),
+              dilatation(model.dilatation),
+              area_change(k.j),
+              area(k.jacobian),
+              log_area(dilatation.option == 2 ? k.log_jacobian() : Real(0.0)),
+              trace_b(k.b[0] + k.b[1]),
+              det_b(k.b[0] * k.b[1] - k.b[3] * k.b[3]) {}
+
+        Real scale() const { return abs(area_change) + abs(trace_b) + sqrt(abs(det_b)); }
+
+        LODE_INLINE Residual<Real> operator()(const Real& y) const {
+            const Real d = expm1(y), z = d * (2.0 + d);
+            VolumeRatio<Real> v(area_change + d + area_change * d, area * (1.0 + d));
+            if (dilatation.option == 2) v.ln = log_area + y;
+            const Real c = cbrt(v.J), inverse2 = 1.0 / (c * c);
+            const Real g1 = shear1 * inverse2, first = 2.0 * z - trace_b, rise = 2.0 * (1.0 + z);
+            Real value = g1 * first, slope = g1 * (2.0 * rise - (2.0 / 3.0) * first);
+            if (shear2 != 0.0) {
+                const Real g2 = shear2 * inverse2 * inverse2;
+                const Real second = first + z * trace_b - 2.0 * det_b;
+                value = value + g2 * second;
+                slope = slope + g2 * (rise * (2.0 + trace_b) - (4.0 / 3.0) * second);
+            }
+            return {(1.0 / 3.0) * value + v.J * dilatation.derivative(v),
+                    (1.0 / 3.0) * slope + v.J * dilatation.stiffness(v)};
+        }
+    };
+};
+
+}  // namespace lode
