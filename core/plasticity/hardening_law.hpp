@@ -212,7 +212,8 @@ class HardeningLaw {
 
 // Residual of the scalar solution, relative to the trial stress (section 1).
 inline constexpr double return_tolerance = 1e-13;
-// Of the yield test, relative. Wider, so that a point just returned to the surface answers a zero increment elastically.
+// Of the yield test, relative. Wider, so that a point just returned to the surface answers a zero increment
+// elastically.
 inline constexpr double yield_tolerance = 1e-11;
 
 // The scalar return of section 2.6 along a line on which q falls with `stiffness` (3G in 3D, E in 1D):
