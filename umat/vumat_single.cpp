@@ -12,18 +12,18 @@ namespace {
 
 using namespace lode;
 
-constexpr int chunk = 64;
+constexpr std::ptrdiff_t chunk = 64;
 
 // Columns of doubles for one chunk, filled from and written back to columns of floats.
 class Workspace {
   public:
     explicit Workspace(int columns) : memory_(thread_memory()) {
-        const auto needed = static_cast<std::size_t>(columns) * chunk;
+        const auto needed = static_cast<std::size_t>(columns * chunk);
         if (memory_.size() < needed) memory_.resize(needed);
     }
     double* take(int columns) {
         double* column = memory_.data() + used_;
-        used_ += static_cast<std::size_t>(columns) * chunk;
+        used_ += static_cast<std::size_t>(columns * chunk);
         return column;
     }
     double* take(const float* source, int columns, int nblock, int first, int count) {
@@ -68,9 +68,9 @@ extern "C" LODE_API void vumat_(const int* nblock, const int* ndir, const int* n
     const int n = *ndir + *nshr;
     const int constants = std::max(*nprops, 0);
     const int total_columns = 3 * n + 2 * *nstatev + 2 * *nfieldv + n + 10;
-    const int props_columns = constants / chunk + 1;
-    for (int first = 0; first < *nblock; first += chunk) {
-        const int count = std::min(chunk, *nblock - first);
+    const int props_columns = constants / static_cast<int>(chunk) + 1;
+    for (int first = 0; first < *nblock; first += static_cast<int>(chunk)) {
+        const int count = std::min(static_cast<int>(chunk), *nblock - first);
         Workspace work(total_columns + props_columns);
         double* const constants_in_double = work.take(props_columns);
         std::copy_n(props, constants, constants_in_double);
