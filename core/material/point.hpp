@@ -172,16 +172,4 @@ struct NoTangent {};
 template <class T>
 inline constexpr bool wants_tangent = !std::is_same_v<T, NoTangent>;
 
-// Runs a rare branch `f(increment, point, tangent)` out of line on copies: the originals, whose address it would
-// otherwise take, can then stay in registers on the common path.
-template <AnalysisKind kind, class Real, class T, class F>
-inline void out_of_line(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent, const F& f) {
-    const Increment<kind, Real> increment_copy = increment;
-    Point<kind, Real> point_copy = point;
-    T tangent_copy = tangent;
-    f(increment_copy, point_copy, tangent_copy);
-    point = point_copy;
-    tangent = tangent_copy;
-}
-
 }  // namespace lode

@@ -28,7 +28,7 @@ struct ScalarTraits {
     using Storage = Real;  // what STRESS, STATEV, ... are arrays of
     static constexpr int lanes = 1;
     static constexpr bool is_batch = false;
-    static constexpr bool is_differentiated = !std::is_same_v<Real, double>;
+    static constexpr bool is_differentiated = !std::is_floating_point_v<Real>;
 };
 template <>
 struct ScalarTraits<Batch> {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <ostream>
 #include <vector>
 
 #include "abi.hpp"
@@ -58,8 +59,10 @@ double mises(const Vector& s) {
 }
 
 struct Case {
+    const char* name;
     Umat* umat;
     std::vector<double> props;
+    friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 const std::vector<double> linear = {200000, 0.3, 400, 2000}, voce = {200000, 0.3, 400, 150, 20, 500};
 double flow_stress(const std::vector<double>& p, double alpha) {
@@ -69,7 +72,7 @@ double flow_stress(const std::vector<double>& p, double alpha) {
 class Plastic : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Plastic, ShearFollowsTheFlowCurve) {
-    const auto& [umat, props] = GetParam();
+    const auto& [name, umat, props] = GetParam();
     const double shear = props[0] / (2 * (1 + props[1]));
     const Result r = call(umat, props, {}, 0, {0, 0, 0, 0.02, 0, 0});
     const double q = std::sqrt(3.0) * r.stress[3];
@@ -79,7 +82,7 @@ TEST_P(Plastic, ShearFollowsTheFlowCurve) {
 }
 
 TEST_P(Plastic, TangentIsTheDerivative) {
-    const auto& [umat, props] = GetParam();
+    const auto& [name, umat, props] = GetParam();
     const Vector start = {150, -60, 20, 90, -40, 70}, de = {4e-3, -2e-3, 1e-3, 3e-3, -5e-3, 2e-3};
     const Result r = call(umat, props, start, 0.01, de);
     EXPECT_GT(r.state, 0.01);
@@ -96,7 +99,7 @@ TEST_P(Plastic, TangentIsTheDerivative) {
 }
 
 TEST_P(Plastic, EnergyIsTheWork) {
-    const auto& [umat, props] = GetParam();
+    const auto& [name, umat, props] = GetParam();
     const Vector start = {150, -60, 20, 90, -40, 70}, de = {4e-3, -2e-3, 1e-3, 3e-3, -5e-3, 2e-3};
     const Result r = call(umat, props, start, 0.01, de);
     double work = 0;
@@ -107,7 +110,7 @@ TEST_P(Plastic, EnergyIsTheWork) {
 }
 
 TEST_P(Plastic, ElasticBelowTheYieldStress) {
-    const auto& [umat, props] = GetParam();
+    const auto& [name, umat, props] = GetParam();
     const Vector de = {1e-4, -2e-4, 3e-5, 1e-4, 0, -1e-4};
     const Result r = call(umat, props, {}, 0, de), e = call(baseline_umat_elastic_, props, {}, 0, de);
     EXPECT_EQ(r.state, 0);
@@ -116,8 +119,9 @@ TEST_P(Plastic, ElasticBelowTheYieldStress) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Baseline, Plastic,
-                         ::testing::Values(Case{baseline_umat_j2_, linear}, Case{baseline_umat_j2_usual_, linear},
-                                           Case{baseline_umat_j2_voce_, voce}));
+                         ::testing::Values(Case{"J2", baseline_umat_j2_, linear},
+                                           Case{"J2Usual", baseline_umat_j2_usual_, linear},
+                                           Case{"J2Voce", baseline_umat_j2_voce_, voce}));
 
 TEST(BaselineElastic, UniaxialStrain) {
     const Result r = call(baseline_umat_elastic_, {200000, 0.3}, {}, 0, {1e-3, 0, 0, 0, 0, 2e-3});
