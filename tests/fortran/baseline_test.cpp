@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <random>
 #include <string>
-#include <ostream>
 #include <vector>
 
 #include "abi.hpp"
