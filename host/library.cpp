@@ -22,13 +22,24 @@ void resolve(void* handle, const char* symbol, Function& function) {
     function = reinterpret_cast<Function>(dlsym(handle, symbol));
 }
 
-// The bare default name goes to the loader, which searches this program's own run path (build tree or installation);
-// the name of an existing file is taken as that file.
+// The library that belongs to this program, in the build tree or the installation; else whatever the loader finds. The
+// program's run path alone would not do: sanitizers call dlopen from a library of theirs, which has another one.
+std::string own_library() {
+    std::error_code ignored;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    for (const char* place : {"../umat", "../" LODE_LIBRARY_DIRECTORY}) {
+        const std::filesystem::path candidate = program.parent_path() / place / default_library;
+        if (std::filesystem::exists(candidate, ignored)) return candidate.lexically_normal().string();
+    }
+    return default_library;
+}
+
+// The name of an existing file is taken as that file, any other goes to the loader.
 std::string what_to_open(const std::string& request) {
     std::string name = request;
     if (name.empty())
         if (const char* variable = std::getenv("LODE_LIBRARY")) name = variable;
-    if (name.empty()) return default_library;
+    if (name.empty()) return own_library();
     std::error_code ignored;
     if (std::filesystem::exists(name, ignored)) return std::filesystem::absolute(name).string();
     return name;

@@ -9,6 +9,7 @@
 #include "lode/hyperelastic/plane_stress.hpp"
 #include "lode/hyperelastic/spatial_tangent.hpp"
 #include "lode/material/properties.hpp"
+#include "lode/numerics/reciprocal_cbrt.hpp"
 
 namespace lode {
 
@@ -112,7 +113,7 @@ struct MooneyRivlin {
 
         // J sigma = G1 c^-2 dev b + G2 c^-4 [(1 + tr b) dev b - dev b^2] + J U' I,   c = cbrt J
         const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
-        const Real c = cbrt(v.J), inverse2 = 1.0 / (c * c);  // J^(-2/3)
+        const Real inverse2 = square(reciprocal_cbrt(v.J)), c = v.J * inverse2;  // J^(-2/3)
         const Real mean = dilatation.derivative(v);
         const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
         auto stress = g1 * k.b;
@@ -130,7 +131,7 @@ struct MooneyRivlin {
         if constexpr (wants_tangent<T>) {
             set_tangent_of_kind<kind>(
                 tangent, point.stress, residual.thermal_expansion != 0.0,
-                [&](auto& full) { set_tangent(k, v, inverse2, full); },
+                [&](auto& full) __attribute__((always_inline)) { set_tangent(k, v, inverse2, full); },
                 [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
         }
 
@@ -183,10 +184,7 @@ struct MooneyRivlin {
         }
         set_stretching_tangent(c, 1.0, stretching, volumetric);
         add_volume_coupling(c, coupling);
-        if (shear2 != 0.0) {
-            add_dyad(c, 2.0 * g2, b);
-            add_sandwich(c, -2.0 * g2, b);
-        }
+        if (shear2 != 0.0) add_cofactors(c, 2.0 * g2, b);
     }
 
     // 3 tau33 = G1 c^-2 (2z - s) + G2 c^-4 [2z - s + z s - 2 d] + 3 J U' with z = b33 = expm1(2y), and s, d the trace
@@ -213,7 +211,7 @@ struct MooneyRivlin {
             const Real d = expm1(y), z = d * (2.0 + d);
             VolumeRatio<Real> v(area_change + d + area_change * d, area * (1.0 + d));
             if (dilatation.option == 2) v.ln = log_area + y;
-            const Real c = cbrt(v.J), inverse2 = 1.0 / (c * c);
+            const Real inverse2 = square(reciprocal_cbrt(v.J));
             const Real g1 = shear1 * inverse2, first = 2.0 * z - trace_b, rise = 2.0 * (1.0 + z);
             Real value = g1 * first, slope = g1 * (2.0 * rise - (2.0 / 3.0) * first);
             if (shear2 != 0.0) {

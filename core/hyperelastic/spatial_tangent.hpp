@@ -90,4 +90,32 @@ LODE_INLINE void add_dyad(Tangent<kind>& tangent, double factor, const Stress<ki
     }
 }
 
+// C += factor [A (x) A - (D -> A D A)] of a symmetric A: all entries are cofactors of A, or zero.
+template <AnalysisKind kind>
+LODE_INLINE void add_cofactors(Tangent<kind>& c, double factor, const Stress<kind, double>& a) {
+    const auto add = [&c](int i, int j, double x) __attribute__((always_inline)) {
+        c(i, j) += x;
+        if (i != j) c(j, i) += x;
+    };
+    constexpr bool solid = kind == AnalysisKind::solid;
+    const double a13 = solid ? a[4 % components(kind)] : 0.0, a23 = solid ? a[5 % components(kind)] : 0.0;
+    const double c11 = factor * (a[1] * a[2] - a23 * a23), c22 = factor * (a[0] * a[2] - a13 * a13);
+    const double c33 = factor * (a[0] * a[1] - a[3] * a[3]), c12 = factor * (a13 * a23 - a[3] * a[2]);
+    add(0, 1, c33);
+    add(0, 2, c22);
+    add(1, 2, c11);
+    add(2, 3, -c12);
+    add(3, 3, -0.5 * c33);
+    if constexpr (solid) {
+        const double c13 = factor * (a[3] * a23 - a13 * a[1]), c23 = factor * (a[3] * a13 - a[0] * a23);
+        add(1, 4, -c13);
+        add(0, 5, -c23);
+        add(4, 4, -0.5 * c22);
+        add(5, 5, -0.5 * c11);
+        add(3, 4, 0.5 * c23);
+        add(3, 5, 0.5 * c13);
+        add(4, 5, 0.5 * c12);
+    }
+}
+
 }  // namespace lode

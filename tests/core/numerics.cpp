@@ -4,6 +4,7 @@
 #include <random>
 
 #include "lode/numerics/dense_newton.hpp"
+#include "lode/numerics/reciprocal_cbrt.hpp"
 #include "lode/numerics/substepping.hpp"
 #include "lode/tensor/voigt.hpp"
 #include "support/dual.hpp"
@@ -214,6 +215,18 @@ TEST(Substepping, ModifiedEulerReportsFailureAndCallsBack) {
     EXPECT_TRUE(constant.completed);
     EXPECT_EQ(calls, 1);
     EXPECT_EQ(constant.state[1], 2.0);
+}
+
+// Two roundings of the last step and of x y^3 are what remains.
+TEST(ReciprocalCbrt, IsWithinTwoUlpFromTheSmallestNormalNumberToTheLargest) {
+    for (int exponent = -1021; exponent <= 1023; ++exponent)
+        for (double mantissa = 1.0; mantissa < 2.0; mantissa += 0.0417) {
+            const double x = std::ldexp(mantissa, exponent);
+            const double exact = static_cast<double>(1.0L / std::cbrt(static_cast<long double>(x)));
+            const double ulp = std::nextafter(exact, 2.0 * exact) - exact;
+            EXPECT_NEAR(reciprocal_cbrt(x), exact, 2.0 * ulp) << x;
+            EXPECT_NEAR(reciprocal_cbrt(Batch(x)).get(0), exact, 2.0 * ulp) << x;
+        }
 }
 
 }  // namespace
