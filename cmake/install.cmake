@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 
 install(DIRECTORY core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lode FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(FILES fortran_shims/lode_interfaces.f90 DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lode)
+install(TARGETS lode_record LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS lode_core lode_umat lode_umat_sp EXPORT lodeTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(link libstandardU libexplicitU-D)

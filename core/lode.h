@@ -32,17 +32,25 @@ enum {
     LODE_UPPER_OPEN = 2,      /* the upper limit itself is not allowed               */
     LODE_INTEGER = 4,         /* a code or a count                                   */
     LODE_ZERO_IS_DEFAULT = 8, /* an entry of 0 means the default, like a missing one */
-    LODE_OPTIONAL = 16        /* has a default                                       */
+    LODE_OPTIONAL = 16,       /* has a default                                       */
+    /* From this bit on: 0, or the number in the table of the count that says how often the entry stands in PROPS.
+     * Neighbours with the same count alternate, G1, tau1, G2, tau2, ..., and what follows them moves on. */
+    LODE_REPEATED_SHIFT = 8
 };
 
 /* Bits of lode_model.traits. */
 enum {
-    LODE_FINITE_STRAIN = 1,  /* reads the deformation gradient and ignores DSTRAN     */
-    LODE_UNSYMMETRIC = 2,    /* DDSDDE is not symmetric: ask the host for that solver */
-    LODE_ROTATES_STATE = 4,  /* tensor-valued STATEV is rotated with DROT             */
-    LODE_USES_CELENT = 8,    /* softening is regularised by the element length        */
-    LODE_ELASTIC = 16,       /* no history: energy is recovered on any closed path    */
-    LODE_HISTORY_STRESS = 32 /* STRESS on entry is ignored, stress follows from STATEV or F */
+    LODE_FINITE_STRAIN = 1,      /* reads the deformation gradient and ignores DSTRAN     */
+    LODE_UNSYMMETRIC = 2,        /* DDSDDE is not symmetric: ask the host for that solver */
+    LODE_ROTATES_STATE = 4,      /* tensor-valued STATEV is rotated with DROT             */
+    LODE_USES_CELENT = 8,        /* softening is regularised by the element length        */
+    LODE_ELASTIC = 16,           /* no history: energy is recovered on any closed path    */
+    LODE_HISTORY_STRESS = 32,    /* STRESS on entry is ignored, stress follows from STATEV or F */
+    LODE_EQUATION_OF_STATE = 64, /* p(V, T) of absolute TEMP; SSE is internal energy, which heat changes too */
+    LODE_VISCOUS = 128,          /* part of the stress is proportional to DSTRAN/DTIME and goes with it */
+    LODE_OPEN_ENERGY = 256,      /* the work of phase changes is in none of SSE, SPD, SCD */
+    LODE_FRAME_CHOICE = 512,     /* the onset of damage picks one of several equivalent directions by the axes */
+    LODE_ENERGY_ESTIMATE = 1024  /* SSE and SCD are estimates: they balance the work at small strain only */
 };
 
 typedef struct lode_parameter {
@@ -74,7 +82,7 @@ typedef struct lode_sample {
 /* An integration algorithm that a PROPS entry selects. */
 typedef struct lode_algorithm {
     const char* name;
-    int parameter; /* 1-based PROPS index that selects it, 0 if there is nothing to select */
+    int parameter; /* number in the table (1-based) of the entry that selects it, 0 if there is nothing to select */
     double value;  /* the value of that entry                    */
     double order;  /* convergence order in the increment on a non-proportional path; HUGE_VAL if exact */
 } lode_algorithm;

@@ -43,11 +43,6 @@ std::string data_lines(const std::vector<double>& values) {
     return text;
 }
 
-std::string user_material(const lode_model& model, const lode_sample& sample) {
-    return fmt::format("*USER MATERIAL, CONSTANTS={}{}\n", sample.constant_count,
-                       (model.traits & LODE_UNSYMMETRIC) != 0 ? ", UNSYMM" : "");
-}
-
 std::string depvar(int count) { return count > 0 ? fmt::format("*DEPVAR\n{}\n", count) : ""; }
 
 }  // namespace
@@ -74,12 +69,19 @@ std::string material_name(const lode_model& model, const lode_sample& sample) {
     return fmt::format("{}-{}", model.keyword, sample.label);
 }
 
+std::string material_cards(const std::string& name, const std::vector<double>& constants, int state_variables,
+                           bool unsymmetric) {
+    return fmt::format("*MATERIAL, NAME={}\n*USER MATERIAL, CONSTANTS={}{}\n", name, constants.size(),
+                       unsymmetric ? ", UNSYMM" : "") +
+           data_lines(constants) + depvar(state_variables);
+}
+
 std::string abaqus_cards(const lode_model& model, const lode_sample& sample, const Library& library) {
     int count = 0;
     for (const Kind kind : kinds_of(sample_kinds(model, sample)))
         count = std::max(count, state_count(model, sample, library, kind));
-    return fmt::format("*MATERIAL, NAME={}\n", material_name(model, sample)) + user_material(model, sample) +
-           data_lines(constants_of(sample)) + depvar(count);
+    return material_cards(material_name(model, sample), constants_of(sample), count,
+                          (model.traits & LODE_UNSYMMETRIC) != 0);
 }
 
 std::string calculix_cards(const lode_model& model, const lode_sample& sample, const Library& library) {

@@ -16,6 +16,9 @@ std::vector<Kind> kinds_of(unsigned mask);
 std::pair<int, int> layout_of(Kind kind);
 
 std::string material_name(const lode_model& model, const lode_sample& sample);
+// *MATERIAL, *USER MATERIAL and *DEPVAR of any constants.
+std::string material_cards(const std::string& name, const std::vector<double>& constants, int state_variables,
+                           bool unsymmetric);
 std::string abaqus_cards(const lode_model& model, const lode_sample& sample, const Library& library);
 // Empty if CalculiX, which sends solids only, cannot use the model.
 std::string calculix_cards(const lode_model& model, const lode_sample& sample, const Library& library);

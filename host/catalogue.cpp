@@ -59,6 +59,25 @@ std::string default_of(const lode_parameter& p) {
     return fmt::format("{}{}", p.default_value, (p.flags & LODE_ZERO_IS_DEFAULT) != 0 ? " (or 0)" : "");
 }
 
+// Repeated entries move those behind them on.
+int repeated_by(const lode_parameter& p) { return static_cast<int>(p.flags >> LODE_REPEATED_SHIFT); }
+bool has_repeated_entries(const lode_model& model) {
+    return std::any_of(model.parameters, model.parameters + model.parameter_count,
+                       [](const lode_parameter& p) { return repeated_by(p) != 0; });
+}
+bool has_fixed_place(const lode_model& model, int index) {
+    return std::none_of(model.parameters, model.parameters + index + 1,
+                        [](const lode_parameter& p) { return repeated_by(p) != 0; });
+}
+std::string place_of(const lode_model& model, int index) {
+    if (const int count = repeated_by(model.parameters[index]); count != 0)
+        return fmt::format("x {}", model.parameters[count - 1].symbol);
+    return has_fixed_place(model, index) ? fmt::format("{}", index + 1) : "...";
+}
+std::string entry_name(const lode_model& model, int number) {
+    return has_fixed_place(model, number - 1) ? fmt::format("PROPS({})", number) : model.parameters[number - 1].symbol;
+}
+
 std::string kinds_text(const lode_model& model) {
     std::string text;
     for (const Kind kind : kinds_of(model.kinds)) {
@@ -86,12 +105,19 @@ std::string traits_text(const lode_model& model) {
     const auto add = [&](unsigned bit, const char* sentence) {
         if ((model.traits & bit) != 0) text += fmt::format("- {}\n", sentence);
     };
-    add(LODE_FINITE_STRAIN, "Finite strain: the stress follows from DFGRD1; DSTRAN is not read. Needs NLGEOM.");
+    add(LODE_FINITE_STRAIN, (model.traits & LODE_VISCOUS) != 0
+                                ? "Finite strain: the pressure follows from DFGRD1. Needs NLGEOM."
+                                : "Finite strain: the stress follows from DFGRD1; DSTRAN is not read. Needs NLGEOM.");
     add(LODE_UNSYMMETRIC, "DDSDDE is not symmetric: ask the host for its unsymmetric solver (UNSYMM).");
     add(LODE_ROTATES_STATE, "Tensor-valued state is rotated with DROT.");
     add(LODE_USES_CELENT, "Softening is regularised by the element length CELENT.");
     add(LODE_ELASTIC, "No history: energy is recovered on closed paths.");
     add(LODE_HISTORY_STRESS, "STRESS on entry is not read: an initial stress of the host is lost.");
+    add(LODE_EQUATION_OF_STATE,
+        "Temperatures are absolute; SSE is the internal energy, which heat changes as well as work.");
+    add(LODE_VISCOUS, "Viscous stress, proportional to DSTRAN/DTIME, vanishes with the strain increment.");
+    add(LODE_ENERGY_ESTIMATE, "SSE and SCD are estimates: they balance the stress work at small strain only.");
+    add(LODE_OPEN_ENERGY, "The work of phase changes is not tracked: SSE + SPD + SCD is not the stress work.");
     return text;
 }
 
@@ -101,7 +127,8 @@ std::string model_table(const Library& library) {
     std::vector<Row> rows;
     for (const lode_model* model : library.models())
         rows.push_back({model->keyword, model->title, short_kinds(*model),
-                        fmt::format("{}/{}", model->required_count, model->parameter_count),
+                        fmt::format("{}/{}{}", model->required_count, model->parameter_count,
+                                    has_repeated_entries(*model) ? "+" : ""),
                         fmt::format("{}", model->state_count)});
     return markdown_table({"Keyword", "Model", "Kinds", "PROPS required/all", "STATEV"}, rows);
 }
@@ -117,11 +144,14 @@ std::string reference_page(const lode_model& model, const Library& library) {
     std::string notes;  // below the table, which they would make too wide
     for (int i = 0; i < model.parameter_count; ++i) {
         const lode_parameter& p = model.parameters[i];
-        rows.push_back({fmt::format("{}", i + 1), p.symbol, p.name, p.unit, range_of(p), default_of(p)});
+        rows.push_back({place_of(model, i), p.symbol, p.name, p.unit, range_of(p), default_of(p)});
         if (p.note != nullptr && *p.note != '\0') notes += fmt::format("- {}: {}\n", p.symbol, p.note);
     }
     page += markdown_table({"#", "Symbol", "Name", "Unit", "Range", "Default"}, rows);
     if (!notes.empty()) page += "\n" + notes;
+
+    if (has_repeated_entries(model))
+        page += "\nAn entry `x N` stands there N times; neighbours with the same N alternate. What follows moves on.\n";
 
     page += "\n## STATEV\n\n";
     if (model.state_count == 0) {
@@ -139,9 +169,10 @@ std::string reference_page(const lode_model& model, const Library& library) {
         rows.clear();
         for (int i = 0; i < model.algorithm_count; ++i) {
             const lode_algorithm& a = model.algorithms[i];
-            rows.push_back({a.name,
-                            a.parameter > 0 ? fmt::format("PROPS({}) = {}", a.parameter, a.value) : "the only one",
-                            std::isfinite(a.order) ? fmt::format("{}", a.order) : "exact"});
+            rows.push_back(
+                {a.name,
+                 a.parameter > 0 ? fmt::format("{} = {}", entry_name(model, a.parameter), a.value) : "the only one",
+                 std::isfinite(a.order) ? fmt::format("{}", a.order) : "exact"});
         }
         page += markdown_table({"Algorithm", "Selected by", "Order"}, rows);
     }

@@ -26,17 +26,19 @@ using UmatFunction = void (*)(double* stress, double* statev, double* ddsdde, do
                               const double* celent, const double* dfgrd0, const double* dfgrd1, const int* noel,
                               const int* npt, const int* layer, const int* kspt, const int* jstep, const int* kinc,
                               CharacterLength);
-using VumatFunction = void (*)(const int* nblock, const int* ndir, const int* nshr, const int* nstatev,
-                               const int* nfieldv, const int* nprops, const int* lanneal, const double* step_time,
-                               const double* total_time, const double* dt, const char* cmname, const double* coord_mp,
-                               const double* char_length, const double* props, const double* density,
-                               double* strain_inc, const double* rel_spin_inc, const double* temp_old,
-                               const double* stretch_old, const double* defgrad_old, const double* field_old,
-                               const double* stress_old, const double* state_old, const double* ener_intern_old,
-                               const double* ener_inelas_old, const double* temp_new, const double* stretch_new,
-                               const double* defgrad_new, const double* field_new, double* stress_new,
-                               double* state_new, double* ener_intern_new, double* ener_inelas_new, CharacterLength);
 }
+// Real: double, or float in a library for single-precision hosts.
+template <class Real>
+using VumatOf = void (*)(const int* nblock, const int* ndir, const int* nshr, const int* nstatev, const int* nfieldv,
+                         const int* nprops, const int* lanneal, const Real* step_time, const Real* total_time,
+                         const Real* dt, const char* cmname, const Real* coord_mp, const Real* char_length,
+                         const Real* props, const Real* density, Real* strain_inc, const Real* rel_spin_inc,
+                         const Real* temp_old, const Real* stretch_old, const Real* defgrad_old, const Real* field_old,
+                         const Real* stress_old, const Real* state_old, const Real* ener_intern_old,
+                         const Real* ener_inelas_old, const Real* temp_new, const Real* stretch_new,
+                         const Real* defgrad_new, const Real* field_new, Real* stress_new, Real* state_new,
+                         Real* ener_intern_new, Real* ener_inelas_new, CharacterLength);
+using VumatFunction = VumatOf<double>;
 
 // The name in 80 characters, blank padded, upper case as Abaqus has it.
 std::string padded_material_name(const std::string& name);

@@ -4,9 +4,13 @@
 #include <exception>
 #include <string>
 
+#include "advise/command.hpp"
+#include "atlas/command.hpp"
 #include "catalogue.hpp"
+#include "chart/command.hpp"
 #include "guard.hpp"
 #include "replay/command.hpp"
+#include "rerun/command.hpp"
 #include "status.hpp"
 
 namespace {
@@ -19,7 +23,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit status: 0 success, 1 bad command line, 2 bad deck, 3 no convergence, 4 refused by the library "
-        "(or XIT), 5 library not loaded");
+        "(or XIT), 5 library not loaded, 6 different from the recording");
 
     lode::host::ReplayOptions replay_options;
     std::string entry;
@@ -41,6 +45,67 @@ int run(int argc, char** argv) {
     models->add_option("-m,--markdown", catalogue_options.markdown_directory,
                        "Write a reference page for each model (or the named one) to this directory");
 
+    lode::host::ChartOptions chart_options;
+    CLI::App* const chart = app.add_subcommand("chart", "Chart accuracy against cost of a deck or of a material");
+    chart->add_option("target", chart_options.targets, "Decks, or materials: KEYWORD or KEYWORD-LABEL");
+    chart->add_flag("--all", chart_options.all, "Every material of the library");
+    chart->add_option("-l,--library", chart_options.library,
+                      "Shared object with umat_ or vumat_ (default: liblode.so)");
+    chart->add_option("--single-library", chart_options.single_library,
+                      "Its twin for single-precision hosts (default: liblode-sp.so beside liblode.so)");
+    chart->add_option("-o,--output", chart_options.output_directory,
+                      "Directory for the files (default: the current one)");
+    chart->add_option("-p,--path", chart_options.path, "One of the built-in paths, e.g. corner (default: all)");
+    chart->add_option("-k,--kind", chart_options.kinds, "Kinds, e.g. 3d plane_stress (default: see docs/charts.md)");
+    chart
+        ->add_option("-n,--increments", chart_options.increments,
+                     "Increments a step, e.g. 1,4,16 (default: 1,2,4,...,128)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 100000));
+    chart->add_flag("--no-cost", chart_options.no_cost, "Errors and orders only");
+    chart->add_flag("-q,--quiet", chart_options.quiet, "Print errors only");
+
+    lode::host::RerunOptions rerun_options;
+    CLI::App* const rerun = app.add_subcommand("rerun", "Run the calls again that LODE_RECORD has stored");
+    rerun->add_option("recording", rerun_options.file, "The file that LODE_RECORD named")->required();
+    rerun->add_option("-l,--library", rerun_options.library,
+                      "Shared object with umat_ or vumat_ (default: liblode.so)");
+    rerun->add_option("--at", rerun_options.at, "Show the call of this number in full");
+    rerun->add_option("--deck", rerun_options.deck, "Write the history of a point as a deck for `lode replay`");
+    rerun->add_option("--plot", rerun_options.plot, "Draw the history of a point: PLOT.png, .svg, .csv");
+    rerun->add_option("--element", rerun_options.element, "Element of the point (default: that of the first call)");
+    rerun->add_option("--point", rerun_options.point, "Integration point (default: that of the first call)");
+    rerun->add_flag("--time", rerun_options.time, "Measure what the calls cost");
+    rerun->add_flag("--salvage", rerun_options.salvage, "Read a damaged file up to the damage");
+    rerun->add_flag("-q,--quiet", rerun_options.quiet, "Print differences and errors only");
+
+    lode::host::AtlasOptions atlas_options;
+    CLI::App* const atlas = app.add_subcommand("atlas", "Map where the methods of a material fail");
+    atlas->add_option("material", atlas_options.targets, "KEYWORD or KEYWORD-LABEL");
+    atlas->add_flag("--all", atlas_options.all, "Every material of the library");
+    atlas->add_option("-m,--map", atlas_options.maps, "Maps to draw (default: all that make sense)")
+        ->check(CLI::IsMember(lode::host::atlas_maps()));
+    atlas->add_option("-l,--library", atlas_options.library,
+                      "Shared object with umat_ or vumat_ (default: liblode.so)");
+    atlas->add_option("-o,--output", atlas_options.output_directory,
+                      "Directory for the files (default: the current one)");
+    atlas->add_option("-k,--kind", atlas_options.kinds, "Kinds, e.g. 3d plane_stress (default: the fullest)");
+    atlas->add_flag("-q,--quiet", atlas_options.quiet, "Print errors only");
+
+    lode::host::AdviseOptions advise_options;
+    CLI::App* const advise = app.add_subcommand("advise", "Find the cheapest setting of a deck that meets a tolerance");
+    advise->add_option("deck", advise_options.deck, "The deck, a TOML file")->required();
+    advise
+        ->add_option("-t,--tolerance", advise_options.tolerance,
+                     "Error allowed, relative to the largest stress (default: 1e-3)")
+        ->check(CLI::Range(1e-15, 1.0));
+    advise->add_option("-l,--library", advise_options.library,
+                       "Shared object with umat_ or vumat_ (default: liblode.so)");
+    advise->add_option("--single-library", advise_options.single_library,
+                       "Its twin for single-precision hosts (default: liblode-sp.so beside liblode.so)");
+    advise->add_option("-o,--output", advise_options.output_directory, "Directory for a table of what was run");
+    advise->add_flag("-q,--quiet", advise_options.quiet, "Print the cards only");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -52,6 +117,10 @@ int run(int argc, char** argv) {
         if (!entry.empty()) replay_options.entry = entry == "umat" ? lode::host::Entry::umat : lode::host::Entry::vumat;
         return static_cast<int>(lode::host::replay(replay_options));
     }
+    if (*advise) return static_cast<int>(lode::host::advise(advise_options));
+    if (*atlas) return static_cast<int>(lode::host::atlas(atlas_options));
+    if (*chart) return static_cast<int>(lode::host::chart(chart_options));
+    if (*rerun) return static_cast<int>(lode::host::rerun(rerun_options));
     return static_cast<int>(lode::host::list_models(catalogue_options));
 }
 

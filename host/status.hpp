@@ -7,7 +7,15 @@
 namespace lode::host {
 
 // The exit status of the program.
-enum class Status { success = 0, usage = 1, bad_deck = 2, not_converged = 3, refused = 4, not_loaded = 5 };
+enum class Status {
+    success = 0,
+    usage = 1,
+    bad_deck = 2,
+    not_converged = 3,
+    refused = 4,
+    not_loaded = 5,
+    different = 6
+};
 
 class Failure : public std::runtime_error {
   public:

@@ -5,6 +5,7 @@
 #include "dispatch.hpp"
 #include "lode/lode.h"
 #include "material_cache.hpp"
+#include "record/recorder.hpp"
 
 extern "C" {
 
@@ -37,3 +38,5 @@ const char* lode_version(void) { return LODE_VERSION; }
 const char* lode_instruction_set(void) { return lode::kernels().instruction_set; }
 
 }  // extern "C"
+
+lode::record::Recorded lode::record::recorded_library() { return {"Lode", LODE_VERSION, kernels().instruction_set}; }

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "record/recorder.hpp"
+
 // The host's utility routines; present only inside a host (90-real-hosts), hence weak.
 extern "C" {
 [[gnu::weak]] void xit_();
@@ -43,6 +45,7 @@ void print(HostProgram host, int severity, const std::string& message) {
 void report_warning(HostProgram host, const std::string& message) { print(host, severity_warning, message); }
 
 void report_error_and_stop(HostProgram host, const std::string& message) {
+    if (record::active) record::ending();
     print(host, severity_error, message);
     const bool is_explicit = host == HostProgram::explicit_;
     const auto stop = is_explicit ? (xplb_exit_ ? xplb_exit_ : xit_) : (xit_ ? xit_ : xplb_exit_);

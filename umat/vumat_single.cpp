@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "errors.hpp"
+#include "record/recorder.hpp"
 #include "vumat.hpp"
 
 namespace {
@@ -53,64 +54,74 @@ void give(const double* source, float* target, int columns, int nblock, int firs
     }
 }
 
-}  // namespace
-
-extern "C" LODE_API void vumat_(const int* nblock, const int* ndir, const int* nshr, const int* nstatev,
-                                const int* nfieldv, const int* nprops, const int* /*lanneal*/, const float* step_time,
-                                const float* total_time, const float* dt, const char* cmname, const float* /*coord_mp*/,
-                                const float* char_length, const float* props, const float* density, float* strain_inc,
-                                const float* /*rel_spin_inc*/, const float* temp_old, const float* /*stretch_old*/,
-                                const float* /*defgrad_old*/, const float* field_old, const float* stress_old,
-                                const float* state_old, const float* ener_intern_old, const float* ener_inelas_old,
-                                const float* temp_new, const float* stretch_new, const float* /*defgrad_new*/,
-                                const float* field_new, float* stress_new, float* state_new, float* ener_intern_new,
-                                float* ener_inelas_new) try {
-    const int n = *ndir + *nshr;
-    const int constants = std::max(*nprops, 0);
-    const int total_columns = 3 * n + 2 * *nstatev + 2 * *nfieldv + n + 10;
+void run(const record::VumatCall<float>& c) try {
+    const int n = *c.ndir + *c.nshr;
+    const int constants = std::max(*c.nprops, 0);
+    const int total_columns = 3 * n + 2 * *c.nstatev + 2 * *c.nfieldv + n + 10;
     const int props_columns = constants / static_cast<int>(chunk) + 1;
-    for (int first = 0; first < *nblock; first += static_cast<int>(chunk)) {
-        const int count = std::min(static_cast<int>(chunk), *nblock - first);
+    for (int first = 0; first < *c.nblock; first += static_cast<int>(chunk)) {
+        const int count = std::min(static_cast<int>(chunk), *c.nblock - first);
         Workspace work(total_columns + props_columns);
         double* const constants_in_double = work.take(props_columns);
-        std::copy_n(props, constants, constants_in_double);
+        std::copy_n(c.props, constants, constants_in_double);
         const auto in = [&](const float* source, int columns) {
-            return work.take(source, columns, *nblock, first, count);
+            return work.take(source, columns, *c.nblock, first, count);
         };
         VumatArguments a{};
         a.nblock = count;
-        a.nstatev = *nstatev;
-        a.nfieldv = *nfieldv;
+        a.nstatev = *c.nstatev;
+        a.nfieldv = *c.nfieldv;
         a.stride = chunk;
-        a.time_increment = static_cast<double>(*dt);
-        a.time_end = static_cast<double>(*total_time);
-        a.density = in(density, 1);
-        a.temp_old = in(temp_old, 1);
-        a.temp_new = in(temp_new, 1);
-        a.field_old = in(field_old, *nfieldv);
-        a.field_new = in(field_new, *nfieldv);
-        a.stretch_new = in(stretch_new, n);
-        a.char_length = in(char_length, 1);
-        a.strain_increment = in(strain_inc, n);
-        a.stress_old = in(stress_old, n);
-        a.state_old = in(state_old, *nstatev);
-        a.internal_energy_old = in(ener_intern_old, 1);
-        a.inelastic_energy_old = in(ener_inelas_old, 1);
+        a.time_increment = static_cast<double>(*c.dt);
+        a.time_end = static_cast<double>(*c.total_time);
+        a.density = in(c.density, 1);
+        a.temp_old = in(c.temp_old, 1);
+        a.temp_new = in(c.temp_new, 1);
+        a.field_old = in(c.field_old, *c.nfieldv);
+        a.field_new = in(c.field_new, *c.nfieldv);
+        a.stretch_new = in(c.stretch_new, n);
+        a.char_length = in(c.char_length, 1);
+        a.strain_increment = in(c.strain_inc, n);
+        a.stress_old = in(c.stress_old, n);
+        a.state_old = in(c.state_old, *c.nstatev);
+        a.internal_energy_old = in(c.ener_intern_old, 1);
+        a.inelastic_energy_old = in(c.ener_inelas_old, 1);
         a.stress_new = work.take(n);
-        a.state_new = work.take(*nstatev);
+        a.state_new = work.take(*c.nstatev);
         a.internal_energy_new = work.take(1);
         a.inelastic_energy_new = work.take(1);
         const VumatHeader header{
-            cmname, constants_in_double, constants, *ndir, *nshr, *step_time == 0.0f && *total_time == 0.0f};
+            c.cmname, constants_in_double, constants, *c.ndir, *c.nshr, *c.step_time == 0.0f && *c.total_time == 0.0f};
         if (!run_vumat(header, a, first)) return;
-        give(a.stress_new, stress_new, n, *nblock, first, count);
-        give(a.state_new, state_new, *nstatev, *nblock, first, count);
-        give(a.internal_energy_new, ener_intern_new, 1, *nblock, first, count);
-        give(a.inelastic_energy_new, ener_inelas_new, 1, *nblock, first, count);
-        give(a.strain_increment, strain_inc, n, *nblock, first, count);
+        give(a.stress_new, c.stress_new, n, *c.nblock, first, count);
+        give(a.state_new, c.state_new, *c.nstatev, *c.nblock, first, count);
+        give(a.internal_energy_new, c.ener_intern_new, 1, *c.nblock, first, count);
+        give(a.inelastic_energy_new, c.ener_inelas_new, 1, *c.nblock, first, count);
+        give(a.strain_increment, c.strain_inc, n, *c.nblock, first, count);
     }
 } catch (const std::exception& problem) {
-    lode::report_error_and_stop(lode::HostProgram::explicit_, problem.what());
+    report_error_and_stop(HostProgram::explicit_, problem.what());
+}
+
+}  // namespace
+
+extern "C" LODE_API void vumat_(const int* nblock, const int* ndir, const int* nshr, const int* nstatev,
+                                const int* nfieldv, const int* nprops, const int* lanneal, const float* step_time,
+                                const float* total_time, const float* dt, const char* cmname, const float* coord_mp,
+                                const float* char_length, const float* props, const float* density, float* strain_inc,
+                                const float* rel_spin_inc, const float* temp_old, const float* stretch_old,
+                                const float* defgrad_old, const float* field_old, const float* stress_old,
+                                const float* state_old, const float* ener_intern_old, const float* ener_inelas_old,
+                                const float* temp_new, const float* stretch_new, const float* defgrad_new,
+                                const float* field_new, float* stress_new, float* state_new, float* ener_intern_new,
+                                float* ener_inelas_new) {
+    record::run_or_record<float>(
+        {nblock,          ndir,     nshr,        nstatev,     nfieldv,     nprops,     lanneal,   step_time,
+         total_time,      dt,       cmname,      coord_mp,    char_length, props,      density,   strain_inc,
+         rel_spin_inc,    temp_old, stretch_old, defgrad_old, field_old,   stress_old, state_old, ener_intern_old,
+         ener_inelas_old, temp_new, stretch_new, defgrad_new, field_new,   stress_new, state_new, ener_intern_new,
+         ener_inelas_new},
+        &run);
 }
 
 extern "C" [[gnu::alias("vumat_"), gnu::visibility("default")]] decltype(vumat_) VUMAT;

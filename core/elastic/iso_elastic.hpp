@@ -4,6 +4,8 @@
 #include <variant>
 
 #include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/elastic/known_field.hpp"
+#include "lode/elastic/out_of_plane.hpp"
 #include "lode/elastic/total_rotation.hpp"
 #include "lode/material/description.hpp"
 #include "lode/material/properties.hpp"
@@ -28,8 +30,7 @@ class Kernel {
         : moduli(IsotropicModuli::from_young_poisson(p[1], p[2])),
           thermal_expansion(p[3]),
           field_expansion(p[4]),
-          out_of_plane(p[6]),
-          ramp_time(p[7]) {}
+          out_of_plane{p[6], p[7]} {}
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
@@ -45,7 +46,7 @@ class Kernel {
     static constexpr int EZZ = 1, OOP = 2, DT = 3, DC = 4;  // STATEV
     static constexpr bool has_options = variant != Variant::plain;
     double thermal_expansion, field_expansion;
-    double out_of_plane, ramp_time;
+    OutOfPlane out_of_plane;
 
     // KIN = 0: sigma += C (DSTRAN - residual increment), page 10, section 1.6.
     template <AnalysisKind kind, class Real, class T>
@@ -62,12 +63,13 @@ class Kernel {
             residual = thermal_expansion * temperature_increment;
             if (field_expansion != 0.0) {
                 const Real field_increment = increment.field_increment(1);
+                if (!is_known(field_increment, point)) return;
                 residual = residual + field_expansion * field_increment;
                 field_sum = field_sum + field_increment;
             }
             add_to_normals(strain, normal_components(kind), -residual);
             const Real imposed_before = imposed;
-            imposed = imposed_out_of_plane(increment);
+            imposed = out_of_plane.at_end(increment);
             imposed_change = imposed - imposed_before;
             add_out_of_plane(strain, imposed_change);
         }
@@ -97,16 +99,18 @@ class Kernel {
 
     // KIN = 1, 2: sigma = C (V - I - residual strain), section 1.7.
     template <AnalysisKind kind, class Real, class T>
-    [[gnu::noinline]] void update_total(const Increment<kind, Real>& increment, Point<kind, Real>& point,
-                                        T& tangent) const {
+    LODE_INLINE void update_total(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         auto& state = point.state;
         TotalRotation<kind, Real> rotation;
         if (!rotation.from(increment, point)) return;
         const Real temperature_sum = state[DT] + increment.temperature_increment();
         Real field_sum = state[DC];
-        if (field_expansion != 0.0) field_sum = field_sum + increment.field_increment(1);
+        if (field_expansion != 0.0) {
+            field_sum = field_sum + increment.field_increment(1);
+            if (!is_known(field_sum, point)) return;
+        }
         const Real residual = thermal_expansion * temperature_sum + field_expansion * field_sum;
-        const Real imposed = imposed_out_of_plane(increment);
+        const Real imposed = out_of_plane.at_end(increment);
         Strain<kind, Real> strain = rotation.strain;
         add_to_normals(strain, normal_components(kind), -residual);
         add_out_of_plane(strain, imposed);
@@ -119,7 +123,7 @@ class Kernel {
             point.thickness_strain_increment = out_of_plane_strain - before;
         }
         if constexpr (wants_tangent<T>) {
-            rotation.set_tangent(moduli, point.stress, tangent);
+            rotation.set_tangent(moduli.coupling_stiffness<kind>(), moduli.shear, point.stress, tangent);
             set_thermal_stress(tangent);
         }
         set_energy(point, imposed);
@@ -129,16 +133,6 @@ class Kernel {
         state.set(DC, field_sum);
     }
 
-    // Section 1.4: sigma33 of plane stress, or a strain on top of eps33 of the (3,1) kinds, ramped in time.
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE Real imposed_out_of_plane(const Increment<kind, Real>& increment) const {
-        if (kind != AnalysisKind::plane_stress && kind != AnalysisKind::plane_strain) return Real(0.0);
-        return Real(ramp_time > 0.0 ? out_of_plane * min(1.0, increment.time_end / ramp_time) : out_of_plane);
-    }
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE static void add_out_of_plane(Strain<kind, Real>& strain, const Real& imposed) {
-        if constexpr (kind == AnalysisKind::plane_strain) strain[2] = strain[2] + imposed;
-    }
     // Plane stress: -Q S_a3 sigma33 = nu/(1 - nu) sigma33 in both directions.
     template <AnalysisKind kind, class Real>
     LODE_INLINE void add_imposed_stress(Stress<kind, Real>& stress, const Real& imposed) const {
@@ -159,7 +153,7 @@ class Kernel {
     LODE_INLINE void set_energy(Point<kind, Real>& point, const Real& imposed) const {
         point.elastic_energy = moduli.template energy<kind>(point.stress);
         if constexpr (kind == AnalysisKind::plane_stress)
-            if (variant != Variant::plain && out_of_plane != 0.0)
+            if (variant != Variant::plain && out_of_plane.present())
                 point.elastic_energy =
                     point.elastic_energy +
                     (0.5 / moduli.young) * imposed * (imposed - 2.0 * moduli.poisson * trace(point.stress));
@@ -187,11 +181,13 @@ struct IsoElastic {
     };
     static constexpr double steel[] = {210000.0, 0.3};
     static constexpr double aluminium[] = {70000.0, 0.33, 2.3e-5};
+    static constexpr double epoxy[] = {3000.0, 0.35, 6e-5, 3e-3};
     static constexpr double large_rotation[] = {1000.0, 0.25, 0.0, 0.0, 1.0};
     static constexpr lode_sample samples[] = {
         {"STEEL", "mild steel, MPa", steel, count_of(steel), 1e-3, continuum_kinds},
         {"ALUMINIUM", "aluminium alloy with thermal expansion, MPa, 1/K", aluminium, count_of(aluminium), 1e-3,
          continuum_kinds},
+        {"EPOXY", "epoxy resin, heat and moisture, MPa, 1/K, 1/(kg/kg)", epoxy, count_of(epoxy), 5e-3, continuum_kinds},
         {"TOTAL", "soft solid, total law in the left stretch", large_rotation, count_of(large_rotation), 0.02,
          continuum_kinds},
     };

@@ -24,6 +24,18 @@ struct IsotropicModuli {
                 .plane_coupling = nu * plane};
     }
 
+    static constexpr IsotropicModuli from_bulk_shear(double K, double G) {
+        const double sum = 3.0 * K + G, lame = K - (2.0 / 3.0) * G, inverse = 1.0 / (lame + 2.0 * G);
+        return {.young = 9.0 * K * G / sum,
+                .poisson = (1.5 * K - G) / sum,
+                .shear = G,
+                .bulk = K,
+                .lame = lame,
+                .half_compliance = sum / (18.0 * K * G),
+                .plane_normal = 4.0 * G * (lame + G) * inverse,
+                .plane_coupling = 2.0 * G * lame * inverse};
+    }
+
     // Diagonal and off-diagonal normal entries of the stiffness of a kind (plane stress: condensed).
     template <AnalysisKind kind>
     LODE_INLINE constexpr double normal_stiffness() const {

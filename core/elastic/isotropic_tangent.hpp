@@ -1,34 +1,11 @@
 // DDSDDE of the isotropic kind, with or without a dyad taken off: coupling 1 x 1 + 2G I - factor s x s.
 #pragma once
 
-#include <cstring>
-#include <type_traits>
-
+#include "lode/elastic/voigt_column.hpp"
 #include "lode/material/point.hpp"
 
 namespace lode {
 namespace isotropic_tangent_detail {
-
-// Vectors of GCC and Clang, one for each column of DDSDDE, padded to a power of two. Written entry by entry, the 36
-// stores of a three-dimensional tangent cost as much as a radial return.
-typedef double Two [[gnu::vector_size(2 * sizeof(double))]];
-typedef double Four [[gnu::vector_size(4 * sizeof(double))]];
-typedef double Eight [[gnu::vector_size(8 * sizeof(double))]];
-template <int n>
-using Column = std::conditional_t<(n > 4), Eight, Four>;
-
-// The first 6 or 3 entries.
-LODE_INLINE void store_exactly(double* p, const Eight& v) {
-    const Four front = __builtin_shufflevector(v, v, 0, 1, 2, 3);
-    const Two back = __builtin_shufflevector(v, v, 4, 5);
-    std::memcpy(p, &front, sizeof front);
-    std::memcpy(p + 4, &back, sizeof back);
-}
-LODE_INLINE void store_exactly(double* p, const Four& v) {
-    const Two front = __builtin_shufflevector(v, v, 0, 1);
-    std::memcpy(p, &front, sizeof front);
-    p[2] = v[2];
-}
 
 template <bool with_dyad, AnalysisKind kind>
 LODE_INLINE void set(Tangent<kind>& c, double coupling, double twice_shear, double factor,
@@ -46,9 +23,7 @@ LODE_INLINE void set(Tangent<kind>& c, double coupling, double twice_shear, doub
         Column<n> column = (j < normals ? twice_shear : 0.5 * twice_shear) * unit;
         if (j < normals) column += normal_column;
         if constexpr (with_dyad) column -= (factor * (*s)[j]) * dyad;
-        // The padding of a column runs over into the next one, which is written later.
-        if (j + 1 < n || n == 4) std::memcpy(c.stiffness + n * j, &column, sizeof column);
-        else store_exactly(c.stiffness + n * j, column);
+        store_column<n>(c.stiffness, j, column);
     }
 }
 

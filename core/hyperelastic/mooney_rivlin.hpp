@@ -103,7 +103,7 @@ struct MooneyRivlin {
         if constexpr (is_plane_stress) {
             const Mask<Real> possible = k.jacobian > Real(0.0) && is_finite(trace(k.b));
             if (all(possible)) {
-                const ThicknessEquation<Real> equation(*this, k);
+                const ThicknessEquation<Real> equation(shear1, shear2, dilatation, k);
                 const auto root = solve_thickness(equation, thickness_of_state(f33m1, e), equation.scale());
                 if (!all(root.converged))
                     return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
@@ -121,7 +121,7 @@ struct MooneyRivlin {
         stress = deviator(stress);
         add_to_normals(stress, 3, mean);
 
-        const Real energy = v.inverse * (shape_energy<kind>(k, c, inverse2) + dilatation.energy(v));
+        const Real energy = v.inverse * (shape_energy(shear1, shear2, k, c, inverse2) + dilatation.energy(v));
         const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress) + energy);
         if (!all(sound)) [[unlikely]]
             return point.fail(!sound, "det F <= 0, or the deformation is not finite");
@@ -145,25 +145,67 @@ struct MooneyRivlin {
         state.set(2, f33m1);
     }
 
+    // G1/2 (I1bar - 3) + G2/2 (I2bar - 3) in terms of second order: with c^3 = J and x = I1 - 3 - 2 (J - 1)
+    //     c^2 (I1bar - 3) = x + (c - 1)^2 (2 c + 1),
+    //     c^4 (I2bar - 3) = 2 x + (second invariant of b) - (c - 1)^2 (3 c^2 + 2 c + 1)
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE static Real shape_energy(double G1, double G2, const Kinematics<kind, Real>& k, const Real& c,
+                                         const Real& inverse2) {
+        const Real x = first_invariant_excess<kind>(k.h);
+        const Real r = square(k.j / (1.0 + c + c * c));  // (c - 1)^2
+        Real energy = 0.5 * G1 * inverse2 * (x + r * (2.0 * c + 1.0));
+        if (G2 == 0.0) return energy;
+        const Real t = trace(k.b), second = 0.5 * (t * t - double_contraction(k.b, k.b));
+        const Real excess = 2.0 * x + second - r * (1.0 + c * (2.0 + 3.0 * c));
+        return energy + 0.5 * G2 * square(inverse2) * excess;
+    }
+
+    // 3 tau33 = G1 c^-2 (2z - s) + G2 c^-4 [2z - s + z s - 2 d] + 3 J U' with z = b33 = expm1(2y), and s, d the trace
+    // and determinant of the in-plane b (section 2.2).
+    template <class Real, class Shear = double>
+    struct ThicknessEquation {
+        Shear shear1, shear2;
+        bool has_second;
+        DilatationalEnergy dilatation;
+        Real area_change, area, log_area, trace_b, det_b;
+
+        ThicknessEquation(const Shear& g1, const Shear& g2, const DilatationalEnergy& volumetric,
+                          const Kinematics<AnalysisKind::plane_stress, Real>& k)
+            : shear1(g1),
+              shear2(g2),
+              has_second(any(g2 != Shear(0.0))),
+              dilatation(volumetric),
+              area_change(k.j),
+              area(k.jacobian),
+              log_area(dilatation.option == 2 ? k.log_jacobian() : Real(0.0)),
+              trace_b(k.b[0] + k.b[1]),
+              det_b(k.b[0] * k.b[1] - k.b[3] * k.b[3]) {}
+
+        Real scale() const { return abs(area_change) + abs(trace_b) + sqrt(abs(det_b)); }
+
+        LODE_INLINE Residual<Real> operator()(const Real& y) const {
+            const Real d = expm1(y), z = d * (2.0 + d);
+            VolumeRatio<Real> v(area_change + d + area_change * d, area * (1.0 + d));
+            if (dilatation.option == 2) v.ln = log_area + y;
+            const Real inverse2 = square(reciprocal_cbrt(v.J));
+            const Real g1 = shear1 * inverse2, first = 2.0 * z - trace_b, rise = 2.0 * (1.0 + z);
+            Real value = g1 * first, slope = g1 * (2.0 * rise - (2.0 / 3.0) * first);
+            if (has_second) {
+                const Real g2 = shear2 * inverse2 * inverse2;
+                const Real second = first + z * trace_b - 2.0 * det_b;
+                value = value + g2 * second;
+                slope = slope + g2 * (rise * (2.0 + trace_b) - (4.0 / 3.0) * second);
+            }
+            return {(1.0 / 3.0) * value + v.J * dilatation.derivative(v),
+                    (1.0 / 3.0) * slope + v.J * dilatation.stiffness(v)};
+        }
+    };
+
     double shear1, shear2;
     DilatationalEnergy dilatation;
     ResidualStrain residual;
 
   private:
-    // G1/2 (I1bar - 3) + G2/2 (I2bar - 3) in terms of second order: with c^3 = J and x = I1 - 3 - 2 (J - 1)
-    //     c^2 (I1bar - 3) = x + (c - 1)^2 (2 c + 1),
-    //     c^4 (I2bar - 3) = 2 x + (second invariant of b) - (c - 1)^2 (3 c^2 + 2 c + 1)
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE Real shape_energy(const Kinematics<kind, Real>& k, const Real& c, const Real& inverse2) const {
-        const Real x = first_invariant_excess<kind>(k.h);
-        const Real r = square(k.j / (1.0 + c + c * c));  // (c - 1)^2
-        Real energy = 0.5 * shear1 * inverse2 * (x + r * (2.0 * c + 1.0));
-        if (shear2 == 0.0) return energy;
-        const Real t = trace(k.b), second = 0.5 * (t * t - double_contraction(k.b, k.b));
-        const Real excess = 2.0 * x + second - r * (1.0 + c * (2.0 + 3.0 * c));
-        return energy + 0.5 * shear2 * square(inverse2) * excess;
-    }
-
     // Section 2.3, with m = I1bar Bbar - Bbar^2:
     //     J C = M(G1 Bbar + G2 m) - (2/3) [(G1 Bbar + 2 G2 m) (x) 1 + 1 (x) (...)]
     //         + [2/9 (G1 I1bar + 4 G2 I2bar) + J (J U')'] 1 (x) 1 + 2 G2 [Bbar (x) Bbar - (D -> Bbar D Bbar)]
@@ -186,44 +228,6 @@ struct MooneyRivlin {
         add_volume_coupling(c, coupling);
         if (shear2 != 0.0) add_cofactors(c, 2.0 * g2, b);
     }
-
-    // 3 tau33 = G1 c^-2 (2z - s) + G2 c^-4 [2z - s + z s - 2 d] + 3 J U' with z = b33 = expm1(2y), and s, d the trace
-    // and determinant of the in-plane b (section 2.2).
-    template <class Real>
-    struct ThicknessEquation {
-        double shear1, shear2;
-        DilatationalEnergy dilatation;
-        Real area_change, area, log_area, trace_b, det_b;
-
-        ThicknessEquation(const MooneyRivlin& model, const Kinematics<AnalysisKind::plane_stress, Real>& k)
-            : shear1(model.shear1),
-              shear2(model.shear2),
-              dilatation(model.dilatation),
-              area_change(k.j),
-              area(k.jacobian),
-              log_area(dilatation.option == 2 ? k.log_jacobian() : Real(0.0)),
-              trace_b(k.b[0] + k.b[1]),
-              det_b(k.b[0] * k.b[1] - k.b[3] * k.b[3]) {}
-
-        Real scale() const { return abs(area_change) + abs(trace_b) + sqrt(abs(det_b)); }
-
-        LODE_INLINE Residual<Real> operator()(const Real& y) const {
-            const Real d = expm1(y), z = d * (2.0 + d);
-            VolumeRatio<Real> v(area_change + d + area_change * d, area * (1.0 + d));
-            if (dilatation.option == 2) v.ln = log_area + y;
-            const Real inverse2 = square(reciprocal_cbrt(v.J));
-            const Real g1 = shear1 * inverse2, first = 2.0 * z - trace_b, rise = 2.0 * (1.0 + z);
-            Real value = g1 * first, slope = g1 * (2.0 * rise - (2.0 / 3.0) * first);
-            if (shear2 != 0.0) {
-                const Real g2 = shear2 * inverse2 * inverse2;
-                const Real second = first + z * trace_b - 2.0 * det_b;
-                value = value + g2 * second;
-                slope = slope + g2 * (rise * (2.0 + trace_b) - (4.0 / 3.0) * second);
-            }
-            return {(1.0 / 3.0) * value + v.J * dilatation.derivative(v),
-                    (1.0 / 3.0) * slope + v.J * dilatation.stiffness(v)};
-        }
-    };
 };
 
 }  // namespace lode

@@ -35,6 +35,12 @@ constexpr lode_parameter optional_or_zero(const char* symbol, const char* name, 
     return p;
 }
 
+// An entry that stands in PROPS as often as the count with number `count` in the table says.
+constexpr lode_parameter repeated(int count, lode_parameter p) {
+    p.flags |= static_cast<unsigned>(count) << LODE_REPEATED_SHIFT;
+    return p;
+}
+
 template <class Array>
 constexpr int count_of(const Array& array) {
     return static_cast<int>(std::size(array));

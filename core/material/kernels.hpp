@@ -20,7 +20,8 @@ namespace lode {
 //   template <kind> void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>&) const;
 // and, if it has something to say at creation, `std::string warnings() const`. A model with variants (a hardening law,
 // an option) may also have `specialise(f)`, which calls f with the one `update`-able kernel that its constants ask for:
-// then each variant gets code of its own, free of the others. A kernel that reads the deformation without the trait
+// then each variant gets code of its own, free of the others. What a kernel can compute from DTIME alone it does in
+// `prepared(TimeIncrement)`, which returns what has `update` then and is called once for a whole block. A kernel that reads the deformation without the trait
 // LODE_FINITE_STRAIN says so by `static constexpr bool reads_stretch = true`.
 template <class Model>
 concept MaterialModel = std::constructible_from<Model, const Properties&> &&
@@ -35,6 +36,12 @@ template <class Model, class F>
 LODE_INLINE void specialise(const Model& model, const F& f) {
     if constexpr (requires { model.specialise(f); }) model.specialise(f);
     else f(model);
+}
+
+template <class Kernel>
+LODE_INLINE auto prepared(const Kernel& kernel, TimeIncrement dt) {
+    if constexpr (requires { kernel.prepared(dt); }) return kernel.prepared(dt);
+    else return kernel;
 }
 
 template <class V>
@@ -84,7 +91,9 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallSt
     std::memset(a.ddsddt, 0, n * sizeof(double));
     std::memset(a.drplde, 0, n * sizeof(double));
     Tangent<kind> tangent{a.ddsdde, a.ddsddt, a.drplde};
-    kernel.template update<kind, double>(increment, point, tangent);
+    if constexpr (requires { kernel.prepared(increment.time_increment); })
+        kernel.prepared(increment.time_increment).template update<kind, double>(increment, point, tangent);
+    else kernel.template update<kind, double>(increment, point, tangent);
 
     status.warning = point.warning;
     if (point.failure != nullptr) [[unlikely]] {
@@ -159,18 +168,19 @@ LODE_INLINE bool vumat_lanes(const Kernel& kernel, const VumatArguments& a, Time
             for (int i = 0; i < n; ++i)
                 point.stress[i].store_unaligned(a.stress_new + vumat_column<kind>(i) * stride + first);
             const Batch inverse_density = 1.0 / Batch::load_unaligned(a.density + first);
+            const Batch dissipation = point.plastic_dissipation + point.viscous_dissipation;
+            const Batch dissipated =
+                Batch::load_unaligned(a.inelastic_energy_old + first) + dissipation * inverse_density;
             Batch energy;
             if constexpr (finite_strain) {
-                energy = point.elastic_energy * inverse_density;
+                energy = point.elastic_energy * inverse_density + dissipated;
             } else {
                 const Batch work =
                     0.5 * (twice_work_start + double_contraction(point.stress, increment.strain_increment));
                 energy = Batch::load_unaligned(a.internal_energy_old + first) + work * inverse_density;
             }
             energy.store_unaligned(a.internal_energy_new + first);
-            const Batch dissipation = point.plastic_dissipation + point.viscous_dissipation;
-            (Batch::load_unaligned(a.inelastic_energy_old + first) + dissipation * inverse_density)
-                .store_unaligned(a.inelastic_energy_new + first);
+            dissipated.store_unaligned(a.inelastic_energy_new + first);
             if constexpr (kind == AnalysisKind::plane_stress) {
                 Batch(0.0).store_unaligned(a.stress_new + 2 * stride + first);
                 point.thickness_strain_increment.store_unaligned(a.strain_increment + 2 * stride + first);
@@ -268,9 +278,9 @@ template <AnalysisKind kind, bool finite_strain, class Kernel>
 [[gnu::noinline]] void vumat_batches(const Kernel& shared_kernel, const VumatArguments& shared_block,
                                      CallStatus& status) {
     // Copies whose address goes nowhere: what a store of results cannot change is loaded once a block.
-    const Kernel kernel = shared_kernel;
     const VumatArguments block = shared_block;
     const TimeIncrement dt = block.time_increment;
+    const auto kernel = prepared(shared_kernel, dt);
     for (int first = 0; first + batch_lanes <= block.nblock; first += batch_lanes)
         if (!vumat_lanes<kind, finite_strain>(kernel, block, dt, first, status)) [[unlikely]]
             return;

@@ -40,6 +40,7 @@ struct Increment {
     std::ptrdiff_t stride = 1;
 
     LODE_INLINE Real temperature_increment() const { return change(temperature_source, 0); }
+    LODE_INLINE Real temperature_start() const { return load<Real>(temperature_source[0]); }
     LODE_INLINE Real temperature_end() const { return end(temperature_source, 0); }
     // Field variable `number` (1-based).
     LODE_INLINE Real field_increment(int number) const { return change(field_source, number - 1); }

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lode/lode.h"
+#include "lode/material/property_places.hpp"
 
 namespace lode {
 
@@ -42,15 +42,17 @@ class Properties {
   public:
     // Validates every entry that is present; throws BadProperty. `material` is the name the host gave.
     Properties(const lode_model& model, std::string_view material, const double* values, int count)
-        : model_(model), material_(material), values_(values), count_(count) {
-        if (count < model.required_count) {
+        : places_(property_places(model, values, count)), material_(material), values_(values), count_(count) {
+        int required = static_cast<int>(places_.size());
+        while (required > 0 && (parameter(required).flags & LODE_OPTIONAL) != 0) --required;
+        if (count < required) {
             std::string message = std::string(material_) + ": " + model.keyword + " needs at least " +
-                                  std::to_string(model.required_count) +
+                                  std::to_string(required) +
                                   " constants, NPROPS = " + std::to_string(count) + "; the first one missing is " +
                                   label(count + 1);
             throw BadProperty(message);
         }
-        for (int i = 1; i <= count && i <= model.parameter_count; ++i) {
+        for (int i = 1; i <= count && i <= static_cast<int>(places_.size()); ++i) {
             const lode_parameter& p = parameter(i);
             const double x = values[i - 1];
             if (x == 0.0 && (p.flags & LODE_ZERO_IS_DEFAULT)) continue;
@@ -84,10 +86,15 @@ class Properties {
     }
 
   private:
-    const lode_parameter& parameter(int index) const { return model_.parameters[index - 1]; }
-    std::string label(int index) const { return std::string(parameter(index).symbol) + ", " + parameter(index).name; }
+    const PropertyPlace& place(int index) const { return places_[static_cast<std::size_t>(index - 1)]; }
+    const lode_parameter& parameter(int index) const { return *place(index).parameter; }
+    std::string label(int index) const {
+        const int repetition = place(index).repetition;
+        return std::string(parameter(index).symbol) + ", " + parameter(index).name +
+               (repetition > 0 ? ", number " + std::to_string(repetition) : "");
+    }
 
-    const lode_model& model_;
+    std::vector<PropertyPlace> places_;  // of PROPS, in order
     std::string_view material_;
     const double* values_;
     int count_;

@@ -1,213 +1,90 @@
-// Isotropic hardening laws k(x) (page 20, section 2): the yield stress as a function of x = alpha or, for a softening
-// law, of x = alpha h/LREF. Shared by all plasticity models. Each law is a small struct with k, its slope and the
-// integral of k - Y; `HardeningLaw` holds the one that PROPS ask for.
+// The hardening law that PROPS ask for, and the return to the yield surface that it governs (page 20, sections 2 and
+// 2.6). Shared by all plasticity models.
 #pragma once
 
 #include <cmath>
+#include <variant>
 
 #include "lode/material/properties.hpp"
 #include "lode/numerics/root.hpp"
+#include "lode/plasticity/hardening_curves.hpp"
 
 namespace lode {
-
-// k, dk/dx and d2k/dx2.
-template <class Real>
-struct FlowStress {
-    Real value, slope, curvature;
-};
-
-// k = Y + Ep x; Ep = 0 is perfect plasticity.
-struct LinearHardening {
-    static constexpr bool softens = false;
-    double yield, modulus;
-
-    template <class Real>
-    LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
-        return {yield + modulus * x, Real(modulus), Real(0.0)};
-    }
-    // Integral of k - Y from x to x + dx, given k at both ends.
-    template <class Real>
-    LODE_INLINE Real stored_energy(const Real&, const Real& dx, const Real& k, const Real& k_end) const {
-        return (0.5 * (k + k_end) - yield) * dx;
-    }
-};
-
-// k = max(Y + Ep x, floor), Ep < 0.
-struct LinearSoftening {
-    static constexpr bool softens = true;
-    double yield, modulus, floor, floor_at;
-
-    template <class Real>
-    LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
-        return {max(yield + modulus * x, Real(floor)), select(x < Real(floor_at), Real(modulus), Real(0.0)), Real(0.0)};
-    }
-    template <class Real>
-    LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const Real&, const Real&) const {
-        const Real from = min(x, Real(floor_at)), to = min(x + dx, Real(floor_at));
-        return 0.5 * modulus * ((to + from) * (to - from)) + (floor - yield) * (dx - (to - from));
-    }
-    double steepest_slope() const { return modulus; }
-};
-
-// k = Y + Q (1 - exp(-b x)) + H x (Voce), continued straight from `straight_from` on.
-struct SaturationHardening {
-    static constexpr bool softens = false;
-    double yield, range, rate, modulus, straight_from;
-    double straight_slope, inverse_rate;
-
-    SaturationHardening(double y, double q, double b, double h, double alpha_max)
-        : yield(y),
-          range(q),
-          rate(b),
-          modulus(h),
-          straight_from(alpha_max),
-          straight_slope(alpha_max < HUGE_VAL ? q * b * std::exp(-b * alpha_max) + h : 0.0),
-          inverse_rate(1.0 / b) {}
-
-    template <class Real>
-    LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
-        const Real bent = min(x, Real(straight_from));
-        const Real decayed = expm1(-rate * bent);
-        const Real slope = range * rate * (1.0 + decayed);
-        return {yield - range * decayed + modulus * bent + straight_slope * (x - bent), slope + modulus, -rate * slope};
-    }
-    // k at x + dx by its Taylor series about x, exact to rounding where `extrapolates`.
-    template <class Real>
-    LODE_INLINE FlowStress<Real> extrapolated(const FlowStress<Real>& k, const Real& dx) const {
-        const Real bend = -rate * k.curvature;
-        return {k.value + dx * (k.slope + dx * (0.5 * k.curvature + dx * ((1.0 / 6.0) * bend))),
-                k.slope + dx * (k.curvature + dx * (0.5 * bend)), k.curvature + dx * bend};
-    }
-    template <class Real>
-    LODE_INLINE Mask<Real> extrapolates(const Real& x, const Real& dx) const {
-        return abs(rate * dx) < Real(1e-4) && max(x, x + dx) < Real(straight_from);
-    }
-    template <class Real>
-    LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const Real& k, const Real& k_end) const {
-        if (straight_from < HUGE_VAL) return stored_energy(x + dx) - stored_energy(x);
-        return range * dx - inverse_rate * (k_end - k - modulus * dx) + modulus * dx * (x + 0.5 * dx);
-    }
-
-  private:
-    // From 0 to x.
-    template <class Real>
-    Real stored_energy(const Real& x) const {
-        const Real bent = min(x, Real(straight_from)), beyond = x - bent;
-        const Real decayed = expm1(-rate * bent);
-        return range * bent + inverse_rate * range * decayed + 0.5 * modulus * (bent * bent) +
-               beyond * (modulus * bent - range * decayed + 0.5 * straight_slope * beyond);
-    }
-};
-
-// The same with Q < 0 or H < 0, cut off at `floor`.
-struct SaturationSoftening {
-    static constexpr bool softens = true;
-    SaturationHardening law;
-    double floor, floor_at;
-
-    template <class Real>
-    LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
-        const FlowStress<Real> k = law.flow_stress(x);
-        const auto above_floor = x < Real(floor_at);
-        return {select(above_floor, k.value, Real(floor)), select(above_floor, k.slope, Real(0.0)),
-                select(above_floor, k.curvature, Real(0.0))};
-    }
-    template <class Real>
-    LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const Real& k, const Real& k_end) const {
-        const Real from = min(x, Real(floor_at)), to = min(x + dx, Real(floor_at));
-        const auto ends_above = to < Real(floor_at);
-        const Real falls_to = select(ends_above, k_end, law.flow_stress(to).value);
-        const Real falls_from = select(ends_above, k, law.flow_stress(from).value);
-        return law.stored_energy(from, to - from, falls_from, falls_to) + (floor - law.yield) * (dx - (to - from));
-    }
-    double steepest_slope() const {
-        return law.flow_stress(law.range < 0.0 ? 0.0 : min(law.straight_from, floor_at)).slope;
-    }
-};
 
 class HardeningLaw {
   public:
     // `law` and `first_constant` are the 1-based PROPS indices of HLAW and H1. Throws BadProperty.
     HardeningLaw(const Properties& p, double initial_yield, int law, int first_constant) : yield_(initial_yield) {
+        const double Y = initial_yield;
         const auto h = [&](int i) { return p[first_constant + i - 1]; };
-        const auto need_constants = [&](int number) {
-            if (p.count() < first_constant + number - 1)
-                p.refuse("HLAW = " + std::to_string(p.code(law)) + " needs NPROPS >= " +
-                         std::to_string(first_constant + number - 1) + ", NPROPS = " + std::to_string(p.count()));
-        };
+        const auto refuse = [&](int i, const std::string& allowed) { p.refuse(first_constant + i - 1, allowed); };
+        const auto need_constants = [&](int number) { require_constants(p, law, first_constant, number); };
         const auto floor = [&](int i) {
-            if (h(i) < 0.0 || h(i) > initial_yield)
-                p.refuse(first_constant + i - 1,
-                         "the floor of the yield stress, in [0, " + format_number(initial_yield) + "]");
+            if (h(i) < 0.0 || h(i) > Y) refuse(i, "the floor of the yield stress, in [0, " + format_number(Y) + "]");
             return h(i);
+        };
+        const auto set = [&](const auto& curve, bool softens, int floor_index) {
+            if (!softens) curve_ = curve;
+            else
+                curve_ = Floored<std::decay_t<decltype(curve)>>{curve, floor(floor_index),
+                                                                curve.falls_to(floor(floor_index))};
         };
         switch (p.code(law)) {
             case 0:
-                kind_ = Kind::linear;
-                linear_ = {initial_yield, 0.0};
+                curve_ = LinearHardening{Y, 0.0};
                 break;
             case 1:
                 need_constants(1);
-                kind_ = h(1) < 0.0 ? Kind::linear_softening : Kind::linear;
-                linear_ = {initial_yield, h(1)};
-                linear_softening_ = {initial_yield, h(1), floor(2), (floor(2) - initial_yield) / h(1)};
+                if (h(1) < 0.0) curve_ = LinearSoftening{Y, h(1), floor(2), (floor(2) - Y) / h(1)};
+                else curve_ = LinearHardening{Y, h(1)};
+                break;
+            case 2:
+                need_constants(2);
+                if (h(1) < 0.0 && h(2) < 1.0) refuse(2, ">= 1 where H1 < 0: the slope would be infinite");
+                set(NonlinearHardening{Y, h(1), h(2)}, h(1) * h(2) < 0.0, 3);
+                break;
+            case 6:
+                need_constants(2);
+                if (h(2) <= 0.0) refuse(2, "> 0");
+                if (h(1) < 0.0 && h(2) < 1.0) refuse(2, ">= 1 where H1 < 0: the slope would be infinite");
+                set(PowerHardening{Y, Y * h(1), h(2)}, h(1) < 0.0, 3);
                 break;
             case 8:
                 need_constants(2);
-                if (h(2) <= 0.0) p.refuse(first_constant + 1, "> 0");
-                if (h(1) < 0.0 && h(3) > 0.0)
-                    p.refuse(first_constant + 2, "<= 0 where the saturation range is negative");
-                saturation_ = SaturationHardening(initial_yield, h(1), h(2), h(3), h(4) > 0.0 ? h(4) : HUGE_VAL);
-                kind_ = h(1) < 0.0 || h(3) < 0.0 ? Kind::saturation_softening : Kind::saturation;
-                if (is_softening())
-                    saturation_softening_ = {saturation_, floor(5), where_it_falls_to(saturation_, floor(5))};
+                if (h(2) <= 0.0) refuse(2, "> 0");
+                if (h(1) < 0.0 && h(3) > 0.0) refuse(3, "<= 0 where the saturation range is negative");
+                set(SaturationHardening(Y, h(1), h(2), h(3), h(4) > 0.0 ? h(4) : HUGE_VAL), h(1) < 0.0 || h(3) < 0.0,
+                    5);
                 break;
             default:
-                p.refuse(law, "one of the laws 0, 1, 8");
+                p.refuse(law, "one of the laws 0, 1, 2, 6, 8");
         }
     }
 
-    bool is_softening() const { return kind_ == Kind::linear_softening || kind_ == Kind::saturation_softening; }
+    // Refuses a law of which less than `number` constants are given.
+    static void require_constants(const Properties& p, int law, int first_constant, int number) {
+        const int needed = first_constant + number - 1;
+        if (p.count() < needed)
+            p.refuse("HLAW = " + std::to_string(p.code(law)) + " needs NPROPS >= " + std::to_string(needed) +
+                     ", NPROPS = " + std::to_string(p.count()));
+    }
+
+    bool is_softening() const {
+        return std::visit([](const auto& curve) { return curve.softens; }, curve_);
+    }
     double initial_yield() const { return yield_; }
 
-    // f(law).
+    // f(curve).
     template <class Result, class F>
     Result visit(const F& f) const {
-        switch (kind_) {
-            case Kind::linear:
-                return f(linear_);
-            case Kind::linear_softening:
-                return f(linear_softening_);
-            case Kind::saturation:
-                return f(saturation_);
-            default:
-                return f(saturation_softening_);
-        }
+        return std::visit([&](const auto& curve) -> Result { return f(curve); }, curve_);
     }
 
   private:
-    enum class Kind { linear, linear_softening, saturation, saturation_softening };
-
-    static double where_it_falls_to(const SaturationHardening& law, double floor) {
-        double upper = 1.0 / law.rate;
-        while (law.flow_stress(upper).value > floor) {
-            upper *= 2.0;
-            if (upper > 1e12) return HUGE_VAL;
-        }
-        double lower = 0.0;
-        for (int i = 0; i < 200 && upper - lower > 1e-16 * upper; ++i) {
-            const double middle = 0.5 * (lower + upper);
-            (law.flow_stress(middle).value > floor ? lower : upper) = middle;
-        }
-        return upper;
-    }
-
-    Kind kind_ = Kind::linear;
     double yield_;
-    LinearHardening linear_{};
-    LinearSoftening linear_softening_{};
-    SaturationHardening saturation_{0.0, 0.0, 1.0, 0.0, HUGE_VAL};
-    SaturationSoftening saturation_softening_{saturation_, 0.0, 0.0};
+    std::variant<LinearHardening, LinearSoftening, NonlinearHardening, Floored<NonlinearHardening>, PowerHardening,
+                 Floored<PowerHardening>, SaturationHardening, Floored<SaturationHardening>>
+        curve_;
 };
 
 // Residual of the scalar solution, relative to the trial stress (section 1).
@@ -216,20 +93,56 @@ inline constexpr double return_tolerance = 1e-13;
 // elastically.
 inline constexpr double yield_tolerance = 1e-11;
 
+// What the return to the yield surface finds, and what its residual is made of.
+template <class Real>
+struct ReturnResult {
+    Real dalpha;
+    FlowStress<Real> flow;  // at the end
+};
+template <class Real>
+struct ReturnTrial {
+    Real value, slope, curvature;  // of the residual
+    Real dalpha;
+    FlowStress<Real> flow;
+};
+// Lane by lane the one or the other.
+template <class Real>
+LODE_INLINE ReturnResult<Real> either(const Mask<Real>& first, const ReturnResult<Real>& a,
+                                      const ReturnResult<Real>& b) {
+    return {select(first, a.dalpha, b.dalpha),
+            {select(first, a.flow.value, b.flow.value), select(first, a.flow.slope, b.flow.slope),
+             select(first, a.flow.curvature, b.flow.curvature)}};
+}
+
+// Solves residual(x) = 0, decreasing in x > 0, for ln x: regular where the slope at x = 0 is infinite, and nearly
+// straight where the logarithm of x rules. The start should lie right of the root.
+template <class Real, class F>
+LODE_INLINE auto solve_in_logarithm(const F& residual, const Real& lower, const Real& upper, const Real& start,
+                                    const Real& tolerance, const Mask<Real>& active) {
+    const auto in_logarithm = [residual](const Real& y) {
+        const Real x = quick_exp(y);
+        auto r = residual(x);
+        r.curvature = x * (x * r.curvature + r.slope);
+        r.slope = x * r.slope;
+        return r;
+    };
+    const auto ln = [&](const Real& x) { return quick_log(select(active, x, Real(1.0))); };
+    return solve_bracketed<Slope::decreasing>(in_logarithm, ln(lower), ln(upper), ln(start), tolerance, active);
+}
+
 // The scalar return of section 2.6 along a line on which q falls with `stiffness` (3G in 3D, E in 1D):
-// dalpha from q_trial - stiffness dalpha = k(scale (alpha + dalpha)); `scale` is 1 unless the law softens.
-template <class Law>
+// dalpha from q_trial - stiffness dalpha = k(scale (alpha + dalpha)); `scale` is 1 unless the law softens. A stiffness
+// that differs from point to point (finite strain) makes `Number` that of the point.
+template <class Law, class Number = double>
 class ReturnToYield {
   public:
     template <class Real>
-    struct Result {
-        Real dalpha;
-        FlowStress<Real> flow;  // at the end
-    };
+    using Result = ReturnResult<Real>;
 
-    ReturnToYield(const Law& law, double stiffness)
+    LODE_INLINE ReturnToYield(const Law& law, const Number& stiffness)
         : law_(law), stiffness_(stiffness), inverse_stiffness_(1.0 / stiffness) {
-        if constexpr (std::is_same_v<Law, LinearHardening>) compliance_ = 1.0 / (stiffness + law.modulus);
+        if constexpr (is_straight) compliance_ = 1.0 / (stiffness + law.modulus);
+        else if constexpr (saturates) compliance_ = 1.0 / (stiffness + law.modulus);
     }
 
     // The lanes of `yields`; `flow` is that of the start. The other lanes hold numbers without meaning.
@@ -237,7 +150,7 @@ class ReturnToYield {
     LODE_INLINE Result<Real> operator()(const Real& q_trial, const Real& alpha, const Real& scale,
                                         const FlowStress<Real>& flow, const Mask<Real>& yields) const {
         const Real excess = q_trial - flow.value;
-        if constexpr (std::is_same_v<Law, LinearHardening>) {
+        if constexpr (is_straight) {
             const Real dalpha = compliance_ * excess;
             return {dalpha, {flow.value + law_.modulus * dalpha, flow.slope, flow.curvature}};
         } else if constexpr (std::is_same_v<Law, LinearSoftening>) {
@@ -246,44 +159,18 @@ class ReturnToYield {
             const auto on_slope = scale * alpha < Real(law_.floor_at) && scale * (alpha + sloped) < Real(law_.floor_at);
             const Real dalpha = select(on_slope, sloped, flat);
             return {dalpha, at(law_, alpha + dalpha, scale)};
+        } else if constexpr (saturates && !is_differentiated<Real>) {
+            return by_decay(q_trial, alpha, flow, excess, yields);
+        } else if constexpr (std::is_same_v<Law, PowerHardening>) {
+            return near_infinite_slope(q_trial, alpha, flow, excess, yields);
         } else {
-            // Everything by value: a reference would keep the point in memory.
-            const auto residual = [q_trial, alpha, scale, law = law_, stiffness = stiffness_](const Real& x) {
-                const FlowStress<Real> k = at(law, alpha + x, scale);
-                return Trial<Real>{q_trial - stiffness * x - k.value, -stiffness - k.slope, -k.curvature, k};
-            };
-            const Real upper = inverse_stiffness_ * max(Law::softens ? q_trial : excess, Real(0.0));
-            const Real tolerance = return_tolerance * q_trial;
-            const Real compliance = 1.0 / (stiffness_ + flow.slope);
-            Real start = excess * compliance;
-            if constexpr (std::is_same_v<Law, SaturationHardening> && !is_differentiated<Real>) {
-                // One step of third order from a start of second order is mostly so short that the series tells k at
-                // its end: one exponential in all.
-                start = start - 0.5 * flow.curvature * (start * start) * compliance;
-                const auto at_start = residual(start);
-                const Real x = root_detail::newton_iterate(start, at_start);
-                const FlowStress<Real> k = law_.extrapolated(at_start.flow, x - start);
-                const auto solved = yields && law_.extrapolates(alpha + start, x - start) &&
-                                    abs(q_trial - stiffness_ * x - k.value) <= tolerance;
-                if (all(solved || !yields)) [[likely]]
-                    return {x, k};
-                const auto root = solve_bracketed<Slope::decreasing>(residual, Real(0.0), upper, start, tolerance,
-                                                                     Mask<Real>(yields && !solved));
-                const auto& other = root.last.flow;
-                return {select(solved, x, root.x),
-                        {select(solved, k.value, other.value), select(solved, k.slope, other.slope),
-                         select(solved, k.curvature, other.curvature)}};
-            } else {
-                const auto root =
-                    solve_bracketed<Slope::decreasing>(residual, Real(0.0), upper, start, tolerance, yields);
-                return {root.x, root.last.flow};
-            }
+            return in_bracket(q_trial, alpha, scale, flow, excess, yields);
         }
     }
 
     // stiffness/(stiffness + H), H = dk/dalpha: how much of a change of q_trial the elastic strain does not take.
     LODE_INLINE double plastic_share(double H) const {
-        if constexpr (std::is_same_v<Law, LinearHardening>) return stiffness_ * compliance_;
+        if constexpr (is_straight) return stiffness_ * compliance_;
         else return stiffness_ / (stiffness_ + H);
     }
 
@@ -299,15 +186,92 @@ class ReturnToYield {
     }
 
   private:
+    static constexpr bool is_straight = std::is_same_v<Law, LinearHardening>;
+    static constexpr bool saturates = std::is_same_v<Law, SaturationHardening>;
+
+    // Everything by value: a reference would keep the point in memory.
     template <class Real>
-    struct Trial {
-        Real value, slope, curvature;
-        FlowStress<Real> flow;
-    };
+    LODE_INLINE auto residual(const Real& q_trial, const Real& alpha, const Real& scale) const {
+        return [q_trial, alpha, scale, law = law_, stiffness = stiffness_](const Real& x) {
+            const FlowStress<Real> k = at(law, alpha + x, scale);
+            return ReturnTrial<Real>{q_trial - stiffness * x - k.value, -stiffness - k.slope, -k.curvature, x, k};
+        };
+    }
+
+    template <class Real>
+    LODE_INLINE Result<Real> in_bracket(const Real& q_trial, const Real& alpha, const Real& scale,
+                                        const FlowStress<Real>& flow, const Real& excess,
+                                        const Mask<Real>& active) const {
+        const Real upper = inverse_stiffness_ * max(Law::softens ? q_trial : excess, Real(0.0));
+        const Real compliance = 1.0 / (stiffness_ + flow.slope);
+        Real start = excess * compliance;
+        start = start - 0.5 * flow.curvature * (start * start) * compliance;
+        const auto root = solve_bracketed<Slope::decreasing>(residual(q_trial, alpha, scale), Real(0.0), upper, start,
+                                                             return_tolerance * q_trial, active);
+        return {root.x, root.last.flow};
+    }
+
+    // k = k_n + u (1 - exp(-z)) + H x with z = b x and u = Q exp(-b alpha): no other exponential is needed than that of
+    // the start. With c = stiffness + H, w = u b/c, m = w/(1 + w) and phi(z) = z - 1 + exp(-z) the return is
+    // z - m phi(z) = z_linear. A start of fourth order and one step of Newton's leave nothing to do as a rule.
+    template <class Real>
+    LODE_INLINE Result<Real> by_decay(const Real& q_trial, const Real& alpha, const FlowStress<Real>& flow,
+                                      const Real& excess, const Mask<Real>& yields) const {
+        const Real bend = flow.slope - law_.modulus;
+        const Real share = 1.0 / (1.0 + compliance_ * bend);
+        const Real m = compliance_ * bend * share;
+        const Real linear = (law_.rate * compliance_) * share * excess;
+        const Real z0 = linear * (1.0 + linear * (0.5 * m + linear * (m * (0.5 * m - 1.0 / 6.0))));
+        // The slope by a series of its own, so that the division need not wait for phi.
+        const Real fall = z0 * (1.0 - z0 * (0.5 - z0 * (1.0 / 6.0 - z0 * (1.0 / 24.0 - z0 * (1.0 / 120.0)))));
+        const Real inverse_slope = 1.0 / (1.0 - m * fall);
+        const Real phi = hardening_detail::DecayRemainder::series(z0);
+        const Real f = (z0 - linear) - m * phi;
+        const Real d = -f * inverse_slope;
+        const Real z = z0 + d, x = law_.inverse_rate * z;
+        const Real decay = (1.0 - z0) + phi;  // exp(-z0)
+        const Real left = f + d * ((1.0 - m * (1.0 - decay)) - d * (m * decay) * (0.5 - (1.0 / 6.0) * d));
+        // `left`, of which the term with d^4 is missing, is a stress of left c/(b share).
+        auto solved = yields && z0 < Real(hardening_detail::DecayRemainder::limit) && abs(d) < Real(1e-3) &&
+                      abs(left) <= 1e-15 * z0;
+        if (law_.straight_from < HUGE_VAL) solved = solved && alpha + x < Real(law_.straight_from);
+        const Real bend_end = bend * (decay * (1.0 - d * (1.0 - d * (0.5 - (1.0 / 6.0) * d))));
+        const FlowStress<Real> k{q_trial - stiffness_ * x, bend_end + law_.modulus, -law_.rate * bend_end};
+        if (all(solved || !yields)) [[likely]]
+            return {x, k};
+        const Result<Real> other = in_bracket_of(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved));
+        return either(solved, Result<Real>{x, k}, other);
+    }
+    // Out of line and everything by value.
+    template <class Real>
+    [[gnu::noinline]] static Result<Real> in_bracket_of(ReturnToYield self, Real q_trial, Real alpha,
+                                                        FlowStress<Real> flow, Mask<Real> active) {
+        return self.in_bracket(q_trial, alpha, Real(1.0), flow, q_trial - flow.value, active);
+    }
+
+    // For n < 1 the slope at alpha = 0 is infinite and a step from there long: such lanes are solved for the logarithm
+    // of dalpha, from the nearer of the elastic and the plastic limit.
+    template <class Real>
+    LODE_INLINE Result<Real> near_infinite_slope(const Real& q_trial, const Real& alpha, const FlowStress<Real>& flow,
+                                                 const Real& excess, const Mask<Real>& yields) const {
+        const Real upper = inverse_stiffness_ * max(excess, Real(0.0));
+        const auto steep = yields && alpha < 0.1 * upper && Mask<Real>(law_.exponent < 1.0 && law_.factor > 0.0);
+        const auto others = yields && !steep;
+        Result<Real> result{Real(0.0), flow};
+        if (any(others)) result = in_bracket(q_trial, alpha, Real(1.0), flow, excess, others);
+        if (!any(steep)) return result;
+        const Real rise = select(steep, (q_trial - law_.yield) * (1.0 / law_.factor), Real(1.0));
+        const Real plastic_limit = quick_pow(rise, 1.0 / law_.exponent) - alpha;
+        const Real lower = select(steep, excess / (stiffness_ + flow.slope), Real(1.0));
+        const Real start = max(min(upper, plastic_limit), lower);
+        const auto root = solve_in_logarithm(residual(q_trial, alpha, Real(1.0)), lower, upper, start,
+                                             return_tolerance * q_trial, steep);
+        return either(steep, Result<Real>{root.last.dalpha, root.last.flow}, result);
+    }
 
     Law law_;
-    double stiffness_, inverse_stiffness_;
-    double compliance_ = 0.0;  // 1/(stiffness + H) of a straight law
+    Number stiffness_, inverse_stiffness_;
+    Number compliance_ = Number(0.0);  // 1/(stiffness + H) of a straight law
 };
 
 }  // namespace lode

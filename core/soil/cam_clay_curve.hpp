@@ -5,7 +5,7 @@
 
 #include "lode/numerics/root.hpp"
 #include "lode/soil/cam_clay_elasticity.hpp"
-#include "lode/soil/lanes.hpp"
+#include "lode/numerics/lanes.hpp"
 
 namespace lode {
 

@@ -13,6 +13,8 @@ namespace lode::host {
 
 enum class Kind { solid, plane_strain, axisymmetric, plane_stress, uniaxial, cohesive_2d, cohesive_3d };
 enum class Entry { umat, vumat };
+// Of the arrays of VUMAT: liblode-sp.so and other libraries for single-precision hosts take float.
+enum class Precision { double_, single };
 
 // Stress or strain in Voigt form, shear strains engineering; at most six entries, no allocation.
 using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;

@@ -14,6 +14,7 @@ namespace lode::host {
 namespace {
 
 constexpr std::array<std::string_view, 2> entry_names{"umat", "vumat"};
+constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 constexpr std::array<std::string_view, 2> solid_controls{"strain", "stress"};
 constexpr std::array<std::string_view, 2> cohesive_controls{"separation", "traction"};
 
@@ -114,6 +115,8 @@ void read_analysis(TableReader& reader, AnalysisSpec& analysis) {
     if (const auto kind = reader.choice("kind", kinds)) analysis.kind = kind_names[*kind].kind;
     if (const auto entry = reader.choice("interface", entry_names))
         analysis.entry = *entry == 0 ? Entry::umat : Entry::vumat;
+    if (const auto precision = reader.choice("precision", precision_names))
+        analysis.precision = *precision == 0 ? Precision::double_ : Precision::single;
     analysis.large_rotation = reader.flag("large_rotation");
     if (analysis.large_rotation) analysis.large_rotation_location = reader.location("large_rotation");
     analysis.element_length = reader.number("element_length", positive).value_or(analysis.element_length);
@@ -166,6 +169,17 @@ void read_output(TableReader& reader, OutputSpec& output) {
     reader.finish();
 }
 
+MaterialSpec read_alternative(TableReader& reader) {
+    MaterialSpec material;
+    material.name = upper(reader.text("name").value_or(""));
+    if (material.name.empty()) reader.refuse("name", "the material's name is missing");
+    const auto constants = reader.raw_numbers("constants");
+    if (!constants) reader.refuse("", "constants are missing: constants = [...]");
+    material.constants = *constants;
+    reader.finish();
+    return material;
+}
+
 }  // namespace
 
 Scenario read_deck(const std::string& path) {
@@ -181,6 +195,9 @@ Scenario read_deck(const std::string& path) {
     read_material(*material, path, layout, scenario.material);
     scenario.steps = read_steps(reader, layout, scenario.analysis);
     if (auto output = reader.table("output")) read_output(*output, scenario.output);
+    if (reader.has("alternative"))
+        for (TableReader& entry : reader.tables("alternative"))
+            scenario.alternatives.push_back(read_alternative(entry));
     reader.finish();
     return scenario;
 }

@@ -238,7 +238,11 @@ void resolve(Scenario& scenario, const Library& library) {
 
 Outcome drive(const Scenario& scenario, const Library& library, const Observer& observer) {
     const auto material = make_material(scenario, library);
-    return Run(scenario, *material, observer).run();
+    return drive(scenario, *material, observer);
+}
+
+Outcome drive(const Scenario& scenario, Material& material, const Observer& observer) {
+    return Run(scenario, material, observer).run();
 }
 
 }  // namespace lode::host

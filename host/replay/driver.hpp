@@ -22,6 +22,7 @@ struct Record {
     const PointState& point;
     const Response* response = nullptr;
 };
+class Material;
 using Observer = std::function<void(const Record&)>;
 
 struct Statistics {
@@ -42,6 +43,8 @@ void resolve(Scenario& scenario, const Library& library);
 
 // The scenario has been resolved. Throws NotLoaded if the library lacks the entry point; all else is in the outcome.
 Outcome drive(const Scenario& scenario, const Library& library, const Observer& observer);
+// The same with a material made before (make_material).
+Outcome drive(const Scenario& scenario, Material& material, const Observer& observer);
 
 }  // namespace lode::host
 

@@ -20,12 +20,17 @@ class Material {
     // Called once, before the first increment.
     virtual void probe(const PointState&, const Increment&) {}
 
+    // For measurements: every call is made so many times and counted as one that took the mean time; only the answer
+    // of the last one counts. 1 after construction.
+    void repeat_calls(int times) { repeats_ = times; }
+
     const CallCount& calls() const { return calls_; }
     // Things worth saying that are no error, e.g. that points of a block disagree.
     const std::vector<std::string>& remarks() const { return remarks_; }
 
   protected:
     CallCount calls_;
+    int repeats_ = 1;
     std::vector<std::string> remarks_;
 };
 

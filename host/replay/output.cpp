@@ -1,32 +1,17 @@
 #include "output.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
+
+#include "../plot/gnuplot.hpp"
 
 namespace lode::host {
 namespace {
 
 std::string with_unit(const std::string& label, const std::string& unit) {
     return unit.empty() ? label : fmt::format("{} ({})", label, unit);
-}
-
-// Inside gnuplot's single quotes.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
-}
-
-// Inside gnuplot's double quotes, where a doubled backslash escapes a character of enhanced text.
-std::string double_quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\\\"") : std::string(1, c);
-    return result + "\"";
 }
 
 // One curve: what it is, by name and symbol. Several: what they have in common, else all their names.
@@ -41,25 +26,6 @@ std::string axis_label(const std::vector<Column>& columns) {
     else
         for (const Column& column : columns) text.append(text.empty() ? "" : ", ").append(column.label);
     return with_unit(text, first.unit);
-}
-
-// Runs gnuplot where the script is, silently; its exit status, 127 if there is no gnuplot.
-int run_gnuplot(const std::filesystem::path& script) {
-    const std::string directory = script.parent_path().empty() ? "." : script.parent_path().string();
-    const std::string name = script.filename().string();
-    const pid_t child = fork();
-    if (child < 0) return 1;
-    if (child == 0) {
-        const int sink = open("/dev/null", O_WRONLY);
-        dup2(sink, STDOUT_FILENO);
-        dup2(sink, STDERR_FILENO);
-        if (chdir(directory.c_str()) != 0) _exit(1);
-        execlp("gnuplot", "gnuplot", name.c_str(), static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 // The component that the first step drives.
@@ -139,60 +105,35 @@ std::vector<Figure> make_figures(const Scenario& scenario, const ColumnSet& set,
 }
 
 std::string draw(const Figure& figure, const std::string& csv) {
-    const std::filesystem::path script_path = figure.stem + ".gp";
-    // The script names its files without directories, so that it can be run again wherever they are.
-    const std::string name = std::filesystem::path(figure.stem).filename().string();
     const std::string data = std::filesystem::path(csv).filename().string();
-    constexpr std::array<const char*, 6> colours{"#1f5fa8", "#c8501e", "#2e8540", "#7b3fa0", "#a67c00", "#444444"};
-
     std::string curves;
     for (std::size_t i = 0; i < figure.y.size(); ++i) {
         curves += fmt::format("{} using {}:{} with lines lw 1.6 lc rgb '{}' {}", i == 0 ? "plot data" : ", data",
-                              figure.x_index + 1, figure.y_index[i] + 1, colours[i % colours.size()],
+                              figure.x_index + 1, figure.y_index[i] + 1, curve_colour(i),
                               figure.y.size() > 1 ? "title " + double_quoted(figure.y[i].label) : "notitle");
     }
-    const std::string script = fmt::format(
-        R"(# gnuplot script, written by `lode replay`. Run it in the directory of its data.
+    return draw_script(
+        figure.stem,
+        fmt::format(
+            R"(# gnuplot script, written by `lode replay`. Run it in the directory of its data.
 data = {data}
 set datafile separator ','
 set datafile columnheaders
-set encoding utf8
-set minussign
-{key}
+{style}{key}
 set title {title} font ',14' offset 0,-0.2 noenhanced
 set xlabel {x}
 set ylabel {y}
-set border 3 lw 0.8 lc rgb '#404040'
-set tics nomirror out scale 0.6 textcolor rgb '#202020'
-set grid lt 1 dt solid lw 0.5 lc rgb '#e0e0e0'
 set xzeroaxis lt 1 dt solid lw 0.7 lc rgb '#a0a0a0'
 set yzeroaxis lt 1 dt solid lw 0.7 lc rgb '#a0a0a0'
 set offsets graph 0.03, graph 0.03, graph 0.06, graph 0.06
 set autoscale noextend
-set terminal pngcairo size 1200,800 font 'Noto Sans,13' fontscale 1.2 enhanced
-set output {png}
-{curves}
-set terminal svg size 760,500 font 'Noto Sans,DejaVu Sans,sans-serif,13' enhanced background 'white' dynamic
-set output {svg}
-replot
-set output
-)",
-        fmt::arg("data", quoted(data)),
-        fmt::arg("key", figure.y.size() > 1
-                            ? "set key below center horizontal Left reverse samplen 2 spacing 1.3 height 0.5"
-                            : "unset key"),
-        fmt::arg("title", quoted(figure.title)), fmt::arg("x", double_quoted(figure.x_label)),
-        fmt::arg("y", double_quoted(figure.y_label)), fmt::arg("png", quoted(name + ".png")),
-        fmt::arg("svg", quoted(name + ".svg")), fmt::arg("curves", curves));
-
-    std::FILE* const file = std::fopen(script_path.c_str(), "w");
-    if (file == nullptr) return "cannot write " + script_path.string();
-    std::fwrite(script.data(), 1, script.size(), file);
-    std::fclose(file);
-    const int status = run_gnuplot(script_path);
-    if (status == 127) return "gnuplot is not installed: " + script_path.string() + " is there, its pictures are not";
-    if (status != 0) return fmt::format("gnuplot refused {} (status {})", script_path.string(), status);
-    return {};
+{draw})",
+            fmt::arg("data", single_quoted(data)), fmt::arg("style", figure_style()),
+            fmt::arg("key", figure.y.size() > 1 ? "set key below center horizontal Left reverse samplen 2 spacing 1.3 "
+                                                  "height 0.5"
+                                                : "unset key"),
+            fmt::arg("title", single_quoted(figure.title)), fmt::arg("x", double_quoted(figure.x_label)),
+            fmt::arg("y", double_quoted(figure.y_label)), fmt::arg("draw", terminals(figure.stem, curves))));
 }
 
 }  // namespace lode::host

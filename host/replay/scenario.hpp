@@ -37,6 +37,7 @@ enum class Control { strain, stress };
 struct AnalysisSpec {
     Kind kind = Kind::solid;
     Entry entry = Entry::umat;
+    Precision precision = Precision::double_;
     std::optional<bool> large_rotation;  // not given: as the material needs it
     std::string large_rotation_location;
     double element_length = 1;
@@ -105,6 +106,7 @@ struct Scenario {
     AnalysisSpec analysis;
     std::vector<Step> steps;
     OutputSpec output;
+    std::vector<MaterialSpec> alternatives;  // simpler materials that `lode advise` is to try: name and constants
 };
 
 }  // namespace lode::host

@@ -1,4 +1,5 @@
 // UMAT, called as Abaqus/Standard calls it.
+#include <algorithm>
 #include <array>
 
 #include "kinematics.hpp"
@@ -46,7 +47,15 @@ class Umat final : public Material {
         std::array<double, 1> none{};
         const auto address = [&none](auto& values) { return values.empty() ? none.data() : values.data(); };
 
-        timed_call(calls_, 1, [&] {
+        // Repeated calls start from what the first one started from.
+        const Response entry = repeats_ > 1 ? response : Response{};
+        timed_call(calls_, 1, repeats_, [&] {
+            if (repeats_ > 1) {
+                response.stress = entry.stress;
+                std::copy(entry.state.begin(), entry.state.end(), response.state.begin());
+                response.energies = entry.energies;
+                response.pnewdt = entry.pnewdt;
+            }
             function_(
                 response.stress.data(), address(response.state), response.tangent.data(), &response.energies.elastic,
                 &response.energies.plastic, &response.energies.creep, &response.heat, ddsddt.data(), drplde.data(),

@@ -13,6 +13,7 @@ namespace lode::host {
 namespace {
 
 // One contiguous run of points for each component.
+template <class Real>
 class Block {
   public:
     Block(int points, int components)
@@ -20,18 +21,19 @@ class Block {
           values_(points_ * static_cast<std::size_t>(std::max(components, 1))) {}
 
     void fill(int component, double value) {
-        std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(offset(component)), points_, value);
+        std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(offset(component)), points_,
+                    static_cast<Real>(value));
     }
-    double first(int component) const { return values_[offset(component)]; }
-    double* data() { return values_.data(); }
+    double first(int component) const { return static_cast<double>(values_[offset(component)]); }
+    Real* data() { return values_.data(); }
 
     // Largest difference of any point from the first one; NaN equals NaN.
     double disagreement() const {
         double largest = 0;
         for (std::size_t i = 0; i < values_.size(); ++i) {
-            const double reference = values_[i - i % points_];
-            if (values_[i] == reference || (std::isnan(values_[i]) && std::isnan(reference))) continue;
-            const double difference = std::abs(values_[i] - reference);
+            const Real value = values_[i], reference = values_[i - i % points_];
+            if (value == reference || (std::isnan(value) && std::isnan(reference))) continue;
+            const double difference = static_cast<double>(std::abs(value - reference));
             largest = std::max(largest, std::isnan(difference) ? HUGE_VAL : difference);
         }
         return largest;
@@ -41,7 +43,7 @@ class Block {
     std::size_t offset(int component) const { return static_cast<std::size_t>(component) * points_; }
 
     std::size_t points_;
-    std::vector<double> values_;
+    std::vector<Real> values_;
 };
 
 constexpr int thickness = -1;
@@ -79,15 +81,16 @@ std::string explicit_name(const std::string& name, Kind kind, bool knows_label) 
     return keyword + "-PS" + (label.empty() ? "" : "-" + label);
 }
 
+template <class Real>
 class Vumat final : public Material {
   public:
     Vumat(const Scenario& scenario, const Library& library)
         : layout_(scenario.analysis.kind),
           map_(component_map(scenario.analysis.kind)),
-          function_(library.vumat()),
+          function_(reinterpret_cast<VumatOf<Real>>(library.vumat())),
+          constants_(scenario.material.constants.begin(), scenario.material.constants.end()),
           name_(padded_material_name(
               explicit_name(scenario.material.name, scenario.analysis.kind, library.has_catalogue()))),
-          constants_(scenario.material.constants),
           density_(scenario.material.density),
           element_length_(scenario.analysis.element_length),
           points_(scenario.analysis.block) {
@@ -127,7 +130,7 @@ class Vumat final : public Material {
         const Polar old_polar = polar(increment.F0), new_polar = polar(increment.F1);
         const Matrix3 middle = polar(0.5 * (increment.F0 + increment.F1)).rotation;
 
-        Block strain_inc(points_, components), spin_inc(points_, nshr), stress_old(points_, components),
+        Block<Real> strain_inc(points_, components), spin_inc(points_, nshr), stress_old(points_, components),
             stress_new(points_, components), state_old(points_, nstatev), state_new(points_, nstatev),
             field_old(points_, nfieldv), field_new(points_, nfieldv), stretch_old(points_, components),
             stretch_new(points_, components), gradient_old(points_, components + nshr),
@@ -154,11 +157,13 @@ class Vumat final : public Material {
         const double old_scale = increment.F0.determinant() / density_;
         intern_old.fill(0, start.energies.sum() * old_scale);
         inelas_old.fill(0, (start.energies.plastic + start.energies.creep) * old_scale);
-        const double no_constant = 0;
+        const Real no_constant = 0;
+        const Real step_time_in = static_cast<Real>(step_time), total_time_in = static_cast<Real>(total_time);
+        const Real dtime_in = static_cast<Real>(increment.dtime);
 
-        timed_call(calls_, points_, [&] {
-            function_(&points_, &ndir, &nshr, &nstatev, &nfieldv, &nprops, &lanneal, &step_time, &total_time,
-                      &increment.dtime, name_.data(), coordinates.data(), length.data(),
+        timed_call(calls_, points_, repeats_, [&] {
+            function_(&points_, &ndir, &nshr, &nstatev, &nfieldv, &nprops, &lanneal, &step_time_in, &total_time_in,
+                      &dtime_in, name_.data(), coordinates.data(), length.data(),
                       constants_.empty() ? &no_constant : constants_.data(), density.data(), strain_inc.data(),
                       spin_inc.data(), temp_old.data(), stretch_old.data(), gradient_old.data(), field_old.data(),
                       stress_old.data(), state_old.data(), intern_old.data(), inelas_old.data(), temp_new.data(),
@@ -204,13 +209,13 @@ class Vumat final : public Material {
         return strain;
     }
 
-    void fill_mapped(Block& block, const Components& values) const {
+    void fill_mapped(Block<Real>& block, const Components& values) const {
         for (std::size_t i = 0; i < map_.size(); ++i)
             block.fill(static_cast<int>(i), map_[i] == thickness ? 0 : values[map_[i]]);
     }
 
     // Direct components first, then as many shears as there are: 12, 23, 31 and, for the gradient, 21, 32, 13.
-    void fill_gradients(Block& gradient, Block& stretch, const Matrix3& F, const Matrix3& U) const {
+    void fill_gradients(Block<Real>& gradient, Block<Real>& stretch, const Matrix3& F, const Matrix3& U) const {
         const int ndir = static_cast<int>(map_.size()) - layout_.nshr();
         const auto value = [](const Matrix3& tensor, int k) {
             const auto [row, column] = gradient_positions[static_cast<std::size_t>(k)];
@@ -228,8 +233,8 @@ class Vumat final : public Material {
     }
 
     // Spin of the motion less that of the axes R, in those axes.
-    void fill_spin(Block& block, const Increment& increment, const Matrix3& old_rotation, const Matrix3& new_rotation,
-                   const Matrix3& middle) const {
+    void fill_spin(Block<Real>& block, const Increment& increment, const Matrix3& old_rotation,
+                   const Matrix3& new_rotation, const Matrix3& middle) const {
         if (increment.spin.isZero(0)) return;
         const Matrix3 axes = motion_increment(old_rotation, new_rotation).spin;
         const Matrix3 relative = middle.transpose() * (increment.spin - axes) * middle;
@@ -241,9 +246,9 @@ class Vumat final : public Material {
 
     Layout layout_;
     std::vector<int> map_;
-    VumatFunction function_;
+    VumatOf<Real> function_;
+    std::vector<Real> constants_;
     std::string name_;
-    std::vector<double> constants_;
     double density_, element_length_;
     int points_;
     bool disagreement_reported_ = false;
@@ -252,7 +257,8 @@ class Vumat final : public Material {
 }  // namespace
 
 std::unique_ptr<Material> make_vumat(const Scenario& scenario, const Library& library) {
-    return std::make_unique<Vumat>(scenario, library);
+    if (scenario.analysis.precision == Precision::single) return std::make_unique<Vumat<float>>(scenario, library);
+    return std::make_unique<Vumat<double>>(scenario, library);
 }
 
 }  // namespace lode::host

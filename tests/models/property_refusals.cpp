@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lode/material/property_places.hpp"
 #include "property_suite.hpp"
 
 namespace lode::test {
@@ -32,8 +33,9 @@ void expect_refusal(const UmatPoint& point, const std::vector<std::string>& word
 // All parameters of the sample written out, the missing ones by their defaults.
 Numbers complete_props(const Case& c) {
     Numbers props = c.props();
-    for (int i = static_cast<int>(props.size()); i < c.model->parameter_count; ++i) {
-        const lode_parameter& p = c.model->parameters[i];
+    const auto places = property_places(*c.model, c.sample->constants, c.sample->constant_count);
+    for (std::size_t i = props.size(); i < places.size(); ++i) {
+        const lode_parameter& p = *places[i].parameter;
         props.push_back((p.flags & LODE_ZERO_IS_DEFAULT) != 0 ? 0.0 : p.default_value);
     }
     return props;
@@ -62,14 +64,15 @@ TEST_P(Refusals, EveryIllegalConstant) {
     const Case& c = GetParam();
     const Numbers legal = complete_props(c);
     const int nstatv = static_cast<int>(c.frugal_point().state().size());
-    ASSERT_TRUE(UmatPoint(c.material(), c.kind, legal).evaluate({}).done())
+    ASSERT_TRUE(UmatPoint(c.material(), c.kind, legal).temperature(c.temperature()).evaluate({}).done())
         << "the sample with all defaults written out";
-    for (int i = 0; i < c.model->parameter_count; ++i) {
-        const lode_parameter& p = c.model->parameters[i];
+    const auto places = property_places(*c.model, legal.data(), static_cast<int>(legal.size()));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const lode_parameter& p = *places[i].parameter;
         for (const double value : illegal_values(p)) {
             SCOPED_TRACE(std::string(p.symbol) + " = " + value_text(value));
             Numbers props = legal;
-            props[static_cast<std::size_t>(i)] = value;
+            props[i] = value;
             UmatPoint point(c.material(), c.kind, props);
             expect_refusal(point.nstatv(nstatv), {c.material(), std::string("(") + p.symbol + ",",
                                                   "PROPS(" + std::to_string(i + 1) + ") = " + value_text(value)});

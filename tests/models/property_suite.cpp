@@ -14,6 +14,7 @@ std::string Case::name() const { return std::string(model->keyword) + "/" + samp
 Numbers Case::props() const { return {sample->constants, sample->constants + sample->constant_count}; }
 UmatPoint Case::point() const {
     UmatPoint point(material(), kind, props());
+    point.temperature(temperature());
     const int needed = static_cast<int>(point.state().size());
     for (int i = needed; i < model->state_count; ++i) {
         Numbers state = point.state();
@@ -25,7 +26,7 @@ UmatPoint Case::point() const {
 }
 UmatPoint Case::frugal_point() const {
     UmatPoint point(material(), kind, props());
-    point.step({.dtime = 0.0});
+    point.temperature(temperature()).step({.dtime = 0.0});
     return point;
 }
 

@@ -29,6 +29,8 @@ struct Case {
     double scale() const { return sample->strain_scale; }
     // The stress of an elastic increment of the sample's strain: what rounding errors are measured against.
     double stress_scale() const { return stiffness * scale(); }
+    // TEMP at the start: equations of state mean absolute temperatures.
+    double temperature() const { return has_trait(LODE_EQUATION_OF_STATE) ? 300.0 : 0.0; }
     std::string material() const;  // e.g. "ISO_PLASTIC-STEEL"
     std::string name() const;      // e.g. "ISO_PLASTIC/STEEL/solid"
     Numbers props() const;

@@ -1,0 +1,306 @@
+// The softening laws of cohesive cracking (page 30, section 3; Nairn, 5.7), shared by all damage models.
+//
+// A law is F(delta) = sig f(u), u = delta/L, L = G/(h sig): sig initiation strength, G toughness, h characteristic
+// length. In u every law has unit area, so that h times the integral of F is G. With the modulus C of its direction,
+// r = sig/(C L) = h sig^2/(G C) measures how brittle a point is, and
+//     e(delta)/L = u + r f(u)       strain that continues damage at delta,
+//     d = u/(u + r f)               damage,
+//     Gbar(delta) = (G/h) omega(u)  energy dissipated per volume.
+// e grows with delta, without snap-back, if r < eta of the law.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "lode/material/properties.hpp"
+#include "lode/numerics/root.hpp"
+
+namespace lode {
+
+// A point of a law.
+template <class Real>
+struct Softened {
+    Real u, f, slope;  // delta/L, F/sig, df/du
+
+    // f - u f', positive as long as damage dissipates.
+    LODE_INLINE Real phi() const { return f - u * slope; }
+    // e/L.
+    LODE_INLINE Real strain(const Real& r) const { return u + r * f; }
+};
+
+class SofteningLaw {
+  public:
+    enum Code { linear = 1, exponential, smooth_step, cubic, double_exponential, stretched_exponential };
+
+    // From PROPS: indices of the law's code, its two parameters and FMIN.
+    SofteningLaw(const Properties& p, int code, int a1, int a2, int fmin)
+        : SofteningLaw(p.code(code), p[a1], p[a2], p[fmin]) {
+        if (code_ == cubic && !(a1_ >= 0.0)) p.refuse(a1, ">= 0 for law 4 (initial slope)");
+        if (code_ == double_exponential && !(a1_ > 1.0)) p.refuse(a1, "> 1 for law 5");
+        if (code_ == double_exponential && !(a2_ < 1.0)) p.refuse(a2, "< 1 for law 5");
+        if (code_ == stretched_exponential && !(a1_ >= 1.0 && a1_ <= 100.0)) p.refuse(a1, "[1, 100] for law 6");
+    }
+    // `fmin`: the value of f at which the laws without an end of their own (2, 5, 6) are taken as failed.
+    SofteningLaw(int code, double a1, double a2, double fmin)
+        : code_(code), a1_(code == smooth_step ? 0.0 : a1), a2_(a2) {
+        const double a = a1_, b = a2_;
+        switch (code_) {
+            case linear:
+                end_ = 2.0, eta_ = 2.0;
+                break;
+            case smooth_step:
+            case cubic: {
+                k2_ = 1.0 + 0.5 * a;
+                const double k3 = 1.0 + a / 3.0, k6 = 1.0 + a / 6.0;
+                end_ = 2.0 / k6;
+                eta_ = 12.0 * k2_ / ((1.0 + 2.0 * k2_) * (1.0 + 2.0 * k2_) * k6);
+                peak_ = k3 * k3 * k3 / (k2_ * k2_);
+                break;
+            }
+            case exponential:
+                end_ = -std::log(fmin), end_value_ = fmin, eta_ = 1.0;
+                break;
+            case double_exponential: {
+                k_ = (a - b) / (a * (1.0 - b)), scale_ = 1.0 / (1.0 - b);
+                if (a * b > 1.0) peak_ = (a - 1.0) * scale_ / a * std::pow(a * b, -1.0 / (a - 1.0));
+                if (b > 1.0 / (a * a))
+                    eta_ = a * a * (1.0 - b) * (1.0 - b) * std::pow(a * a * b, 1.0 / (a - 1.0)) / ((a - b) * (a - 1.0));
+                else eta_ = a * (1.0 - b) * (1.0 - b) / ((a - b) * (1.0 - a * b));
+                end_ = double_exponential_end(fmin), end_value_ = fmin;
+                break;
+            }
+            default: {
+                k_ = std::tgamma(1.0 + 1.0 / a);
+                end_ = std::pow(-std::log(fmin), 1.0 / a) / k_, end_value_ = fmin;
+                const double t = a - 1.0;
+                eta_ = a > 1.0 ? 1.0 / (t * std::pow(a / t, 1.0 / a) * std::exp(-t / a) * k_) : 1.0;
+                // Terms of the series of omega down to rounding, at the end, where it converges most slowly.
+                terms_ = series_terms(-std::log(fmin));
+            }
+        }
+        end_release_ = value_of(omega(end_)) + 0.5 * end_value_ * end_;
+    }
+
+    int code() const { return code_; }
+    bool is_linear() const { return code_ == linear; }
+    // f ends at 0, so damage ends at 1.
+    bool has_end() const { return end_value_ == 0.0; }
+    // u and f where the law is taken as failed.
+    double end() const { return end_; }
+    double end_value() const { return end_value_; }
+    // Largest f.
+    double peak() const { return peak_; }
+    // Limit of r.
+    double eta() const { return eta_; }
+
+    // e/L and damage at the end.
+    template <class Real>
+    LODE_INLINE Real end_strain(const Real& r) const {
+        return end_ + end_value_ * r;
+    }
+    template <class Real>
+    LODE_INLINE Real end_damage(const Real& r) const {
+        return end_ / end_strain(r);
+    }
+    // Energy per volume over G/h released by a complete failure in one direction: 1 but for the tail that FMIN cuts.
+    template <class Real>
+    LODE_INLINE Real end_release(const Real& r) const {
+        return end_release_ + (0.5 * end_value_ * end_value_) * r;
+    }
+
+    template <class Real>
+    LODE_INLINE Softened<Real> at(const Real& u) const {
+        if (code_ == linear) return {u, 1.0 - 0.5 * u, Real(-0.5)};
+        return curved(u);
+    }
+
+    // omega(u) = integral of f - u f/2.
+    template <class Real>
+    LODE_INLINE Real omega(const Real& u) const {
+        if (code_ == linear) return 0.5 * u;
+        return curved_omega(u);
+    }
+
+    // u + r f(u) = x: the point of the law at a strain x = eps/L between e/L at `u_old` and at the end.
+    template <class Real>
+    LODE_INLINE Softened<Real> at_strain(const Real& x, const Real& r, const Real& u_old,
+                                         const Mask<Real>& active) const {
+        if (code_ == linear) return at(Real((x - r) / (1.0 - 0.5 * r)));
+        return solve_strain(x, r, u_old, active);
+    }
+
+    // u (1 - d) = d r f(u): the point of the law at damage d. `u_start`: a value at smaller damage, or 0.
+    template <class Real>
+    LODE_INLINE Softened<Real> at_damage(const Real& d, const Real& r, const Real& u_start,
+                                         const Mask<Real>& active) const {
+        if (code_ == linear) return at(Real(2.0 * r * d / (2.0 * (1.0 - d) + r * d)));
+        return solve_damage(d, r, u_start, active);
+    }
+
+  private:
+    template <class Real>
+    struct Balance {
+        Real value, slope;
+        Softened<Real> point;
+    };
+
+    // Out of line: a kernel asks for these in many places.
+    template <class Real>
+    [[gnu::noinline]] Softened<Real> curved(Real u) const {
+        switch (code_) {
+            case exponential: {
+                const Real f = exp(-u);
+                return {u, f, -f};
+            }
+            case smooth_step:
+            case cubic: {
+                const Real x = min(Real(u * (1.0 / end_)), Real(1.0)), rest = 1.0 - x;
+                return {u, (1.0 + 2.0 * k2_ * x) * (rest * rest), (1.0 / end_) * (a1_ - 6.0 * k2_ * x) * rest};
+            }
+            case double_exponential: {
+                const Real slow = scale_ * exp(-k_ * u), fast = (scale_ * a2_) * exp((-a1_ * k_) * u);
+                return {u, slow - fast, k_ * (a1_ * fast - slow)};
+            }
+            default: {
+                // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
+                const Real size = max(u, Real(1e-300)), z = pow(k_ * size, Real(a1_));
+                const Real f = exp(-z);
+                return {u, f, -a1_ * z / size * f};
+            }
+        }
+    }
+
+    template <class Real>
+    [[gnu::noinline]] Real curved_omega(Real u) const {
+        switch (code_) {
+            case exponential:
+                return 1.0 - exp(-u) * (1.0 + 0.5 * u);
+            case smooth_step:
+            case cubic: {
+                const Real x = u * (1.0 / end_);
+                return 0.5 * u * (1.0 + x * x * ((4.0 * k2_ - 1.0) / 3.0 - k2_ * x));
+            }
+            case double_exponential: {
+                const double a = a1_, b = a2_, inverse_k = 1.0 / k_;
+                return scale_ * ((a - b) / a * inverse_k - exp(-k_ * u) * (inverse_k + 0.5 * u) +
+                                 b * exp((-a * k_) * u) * (inverse_k / a + 0.5 * u));
+            }
+            default: {
+                const Real z = pow(k_ * max(u, Real(1e-300)), Real(a1_)), f = exp(-z);
+                const Real integral = u * f * gamma_series(z, terms_);
+                const Mask<Real> beyond = u > Real((1.0 + 1e-14) * end_);
+                if (!any(beyond)) [[likely]]
+                    return integral - 0.5 * u * f;
+                // On the tail; past z = 40 it is all of the area.
+                const Real tail = u * f * gamma_series(min(z, Real(40.0)), series_terms(40.0));
+                const Real far = select(z > Real(40.0), Real(1.0), tail);
+                return select(beyond, far, integral) - 0.5 * u * f;
+            }
+        }
+    }
+
+    // integral of f from 0 to u over u f = 1 + z/(s + 1) (1 + z/(s + 2) (1 + ...)), s = 1/a: the power series of the
+    // lower incomplete gamma function.
+    template <class Real>
+    LODE_INLINE Real gamma_series(const Real& z, int terms) const {
+        const double s = 1.0 / a1_;
+        Real series = Real(1.0);
+        for (int n = terms; n > 0; --n) series = 1.0 + series * (z * (1.0 / (s + n)));
+        return series;
+    }
+    // How many of its terms matter up to z.
+    int series_terms(double z) const {
+        int n = 1;
+        for (double term = 1.0; term > 1e-18; ++n) term *= z / (n + 1.0 / a1_);
+        return n;
+    }
+
+    // The strain grows with u. Newton starts where the increment is small at the old point, else at the upper end,
+    // towards which the laws are convex.
+    template <class Real>
+    [[gnu::noinline]] Softened<Real> solve_strain(Real x, Real r, Real u_old, Mask<Real> active) const {
+        const Real lower = min(u_old, Real(end_)), upper = max(lower, min(x, Real(end_)));
+        const auto residual = [=, this](const Real& u) {
+            const Softened<Real> s = curved(u);
+            return Balance<Real>{s.strain(r) - x, 1.0 + r * s.slope, s};
+        };
+        const Mask<Real> small = upper - lower < 2.0 * r;
+        const Real start = select(active, select(small, lower, upper), lower);
+        return solve_bracketed<Slope::increasing>(residual, lower, upper, start, Real(tolerance * x), active)
+            .last.point;
+    }
+
+    // The root is not above r f_max d/(1 - d), nor above the end of a law that ends.
+    template <class Real>
+    [[gnu::noinline]] Softened<Real> solve_damage(Real d, Real r, Real u_start, Mask<Real> active) const {
+        const Real rest = max(1.0 - d, Real(1e-16));
+        Real upper = r * peak_ * d / rest;
+        Mask<Real> ended = Mask<Real>(false);
+        if (has_end()) {
+            upper = min(upper, Real(end_));
+            ended = d >= Real(1.0);
+        }
+        const Real weight = d * r;
+        const auto residual = [=, this](const Real& u) {
+            const Softened<Real> s = curved(u);
+            return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
+        };
+        const Real start = select(ended, Real(end_), min(u_start, upper));
+        return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start, Real(tolerance * peak_ * weight),
+                                                  active && !ended)
+            .last.point;
+    }
+
+    double double_exponential_end(double fmin) const {
+        const double a = a1_, b = a2_;
+        const double top = a * b > 1.0 ? std::log(a * b) / (k_ * (a - 1.0)) : 0.0;
+        const double far = std::max(-std::log((1.0 - b) * fmin), -std::log(fmin)) / k_;
+        const auto residual = [&](double u) {
+            const Softened<double> s = at(u);
+            return Residual<double>{s.f - fmin, s.slope};
+        };
+        return solve_bracketed<Slope::decreasing>(residual, top, std::max(far, top), far, 1e-15 * fmin).x;
+    }
+
+    static constexpr double tolerance = 2e-15;
+
+    int code_, terms_ = 0;
+    double a1_, a2_;
+    double k2_ = 1.0, k_ = 1.0, scale_ = 1.0;
+    double end_ = 0.0, end_value_ = 0.0, peak_ = 1.0, eta_ = 1.0, end_release_ = 0.0;
+};
+
+// The law of one direction at one material point.
+template <class Real>
+struct SofteningDirection {
+    Real strength, length, modulus;  // sig, L = G/(h sig), C
+    Real brittleness;                // r
+    Mask<Real> enabled;              // a direction of zero strength never fails
+
+    SofteningDirection() = default;
+    // `energy`: G/h.
+    LODE_INLINE SofteningDirection(const Real& sig, const Real& energy, const Real& C) : modulus(C) {
+        enabled = sig > Real(0.0);
+        set_strength(select(enabled, sig, Real(1.0)), energy);
+    }
+    LODE_INLINE void set_strength(const Real& sig, const Real& energy) {
+        strength = sig;
+        length = energy / sig;
+        brittleness = sig / (modulus * length);
+    }
+    // HPOL = 1: the strength that keeps r at 0.98 of the law's limit.
+    LODE_INLINE void limit_strength(const SofteningLaw& law) {
+        const Real most = Real(0.98 * law.eta());
+        const Mask<Real> excessive = enabled && brittleness > most;
+        if (!any(excessive)) return;
+        const Real factor = select(excessive, sqrt(most / brittleness), Real(1.0));
+        strength = factor * strength;
+        length = length / factor;
+        brittleness = select(excessive, most, brittleness);
+    }
+
+    LODE_INLINE Real energy() const { return strength * length; }         // G/h
+    LODE_INLINE Real onset_strain() const { return strength / modulus; }  // eps0
+};
+
+}  // namespace lode

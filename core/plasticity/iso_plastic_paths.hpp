@@ -1,0 +1,251 @@
+// Alternatives to backward Euler for the deviator and alpha under a constant strain rate (page 20, sections 3 and 6),
+// for hardening curves in kinds with three normal components. The trial increment is d = 2G dev(de); the yield surface
+// has the radius R = sqrt(2/3) k(alpha).
+#pragma once
+
+#include "lode/numerics/lanes.hpp"
+#include "lode/numerics/substepping.hpp"
+#include "lode/plasticity/iso_plastic_laws.hpp"
+
+namespace lode::iso_plastic {
+
+// PROPS entry METHOD.
+enum class Method {
+    backward_euler = 0,
+    exact = 1,           // for a constant strain rate
+    substeps = 2,        // of backward Euler
+    cutting_plane = 3,   //
+    modified_euler = 4,  // with error control
+    trapezoidal = 5,     // perfect plasticity
+    forward_euler = 6,   // NSUB substeps, pulled back to the surface
+};
+
+template <AnalysisKind kind, class Real>
+struct DeviatoricState {
+    Stress<kind, Real> s;
+    Real alpha;
+};
+
+template <AnalysisKind kind, class Real>
+class ConstantRatePath {
+  public:
+    using S = Stress<kind, Real>;
+    using State = DeviatoricState<kind, Real>;
+
+    ConstantRatePath(const AnyLaw& law, const Real& scale, double G) : law_(law), G_(G) {
+        Surroundings<Real> s;
+        s.scale = scale;
+        at_ = law.at(s);
+    }
+
+    // The end of the increment.
+    State follow(Method method, const State& start, const S& d, int substeps, double tolerance) const {
+        if (method == Method::cutting_plane) return cutting_plane({start.s + d, start.alpha});
+        const FlowStress<Real> k = law_.start(at_, start.alpha);
+        const Real R = root23 * k.value, length2 = double_contraction(d, d);
+        const Real size = norm(start.s);
+        if (norm(start.s + d) <= R * (1.0 + yield_tolerance) || !(length2 > Real(0.0)))
+            return {start.s + d, start.alpha};
+        if (!(k.value > Real(0.0)) || size > R * (1.0 + 1e-6)) return backward_euler({start.s + d, start.alpha});
+
+        // The part r of the increment that is elastic, and where it ends.
+        const Real b = double_contraction(start.s, d), inside = R * R - size * size;
+        Real r(0.0);
+        State c = start;
+        if (inside <= 1e-12 * (R * R) && b >= Real(0.0)) {
+            c.s = (R / size) * start.s;
+        } else {
+            const Real root = sqrt(b * b + length2 * max(inside, Real(0.0)));
+            r = b > Real(0.0) ? inside / (b + root) : (root - b) / length2;
+            c.s = start.s + r * d;
+        }
+        const S rest = (1.0 - r) * d;
+        switch (method) {
+            case Method::exact:
+                return exact(c, rest, k, R);
+            case Method::modified_euler:
+                return modified(c, rest, tolerance);
+            case Method::trapezoidal:
+                return trapezoid(c, rest, R);
+            default:
+                return forward(c, rest, substeps);
+        }
+    }
+
+  private:
+    static constexpr double root23 = 0.81649658092772603273;  // sqrt(2/3)
+
+    AnyLaw law_;
+    double G_;
+    AnyLaw::At<Real> at_;
+
+    static Real norm(const S& s) { return sqrt(double_contraction(s, s)); }
+
+    State backward_euler(const State& trial) const {
+        const Real q = sqrt(1.5) * norm(trial.s);
+        const FlowStress<Real> k = law_.start(at_, trial.alpha);
+        const Real dalpha = law_.template solve<radial>(at_, q, trial.alpha, k, true).dalpha;
+        return {(1.0 - 3.0 * G_ * dalpha / q) * trial.s, trial.alpha + dalpha};
+    }
+
+    // Newton's linear updates towards the surface. One more after the last that was needed, for the derivatives.
+    State cutting_plane(State at) const {
+        Real q = sqrt(1.5) * norm(at.s);
+        FlowStress<Real> k = law_.start(at_, at.alpha);
+        if (!(q - k.value > yield_tolerance * max(q, k.value))) return at;
+        const Real q_trial = q;
+        bool last = false;
+        for (int i = 0; i < 100; ++i) {
+            const Real dalpha = (q - k.value) / (3.0 * G_ + k.slope);
+            q = q - 3.0 * G_ * dalpha;
+            at.alpha = at.alpha + dalpha;
+            k = law_.start(at_, at.alpha);
+            if (last) {
+                at.s = (q / q_trial) * at.s;
+                return at;
+            }
+            last = abs(q - k.value) <= return_tolerance * q_trial;
+        }
+        return backward_euler({at.s, at.alpha - (q_trial - q) / (3.0 * G_)});
+    }
+
+    // Section 3, METHOD 1. The deviator turns towards d in the plane of both: with the angle psi between them and
+    // u = ln tan(psi/2), du/dt = -|d|/R whatever the hardening.
+    State exact(const State& c, const S& d, const FlowStress<Real>& k, const Real& R) const {
+        const Real a = norm(d);
+        const S dh = (1.0 / a) * d;
+        const Real along = double_contraction(c.s, dh);
+        const S w = c.s - along * dh;
+        const Real across = norm(w);
+        if (across < 1e-7 * R) return backward_euler({c.s + d, c.alpha});
+        if (k.slope == Real(0.0) && k.curvature == Real(0.0)) {
+            const Real C = along / R, e = quick_exp(Real(0.0) - a / R), e2 = e * e;
+            const Real den = (1.0 + C) + e2 * (1.0 - C), rho = 2.0 * e / den;
+            const Real turned = ((1.0 + C) - e2 * (1.0 - C)) / den - C * rho;
+            // R (turned dh + rho s_c/R), gamma = (R/2G)(-ln rho)
+            return {R * turned * dh + rho * c.s, c.alpha - root23 * (R / (2.0 * G_)) * quick_log(rho)};
+        }
+        // t = a'/R from 0 to a/R: dV/dt = sqrt(3/2) R cos(psi), du/dt = -R/R(alpha(V)), V = 3G alpha + k.
+        const Real u0 = along > Real(0.0) ? quick_log(across / (R + along)) : quick_log((R - along) / across);
+        const Pair start{3.0 * G_ * c.alpha + k.value, u0};
+        const auto rate = [&](const Pair& y) {
+            const Real K = strength_of(y.V, c.alpha, k);
+            return Pair{(1.5 * root23) * R * cosine(y.u), Real(0.0) - k.value / K};
+        };
+        Pair end{start};
+        if (!extrapolate(rate, a / R, k.value, end)) return backward_euler({c.s + d, c.alpha});
+        const Real K = strength_of(end.V, c.alpha, k);
+        const Real R1 = root23 * K, cosine1 = cosine(end.u), tail = quick_exp(Real(0.0) - abs(end.u));
+        const Real sine1 = 2.0 * tail / (1.0 + tail * tail);
+        return {R1 * cosine1 * dh + (R1 * sine1 / across) * w, (end.V - K) / (3.0 * G_)};
+    }
+    struct Pair {
+        Real V, u;
+    };
+    // k of V = 3G alpha + k(alpha): the scalar return.
+    Real strength_of(const Real& V, const Real& alpha, const FlowStress<Real>& k) const {
+        const Real q = max(V - 3.0 * G_ * alpha, k.value);
+        return q - 3.0 * G_ * law_.template solve<radial>(at_, q, alpha, k, true).dalpha;
+    }
+    // cos(psi) = -tanh(u)
+    static Real cosine(const Real& u) {
+        const Real e = expm1(-2.0 * abs(u));
+        const Real tanh = Real(0.0) - e / (2.0 + e);
+        return u > Real(0.0) ? Real(0.0) - tanh : tanh;
+    }
+    // Gragg's midpoint rule, extrapolated in the square of its step, in panels that are halved until two orders agree.
+    template <class Rate>
+    static bool extrapolate(const Rate& rate, const Real& length, const Real& scale, Pair& y) {
+        constexpr int columns = 8;
+        double part = 1.0, done = 0.0;
+        // A panel of a tenth of a turn converges at once.
+        while (part * value_of(length) > 0.5) part *= 0.5;
+        for (int panel = 0; panel < 100000 && done < 1.0;) {
+            const Real H = part * length;
+            Pair table[columns];
+            double change = HUGE_VAL;
+            int c = 0;
+            for (; c < columns; ++c) {
+                const int n = 2 * (c + 1);
+                const Real h = H * (1.0 / n);
+                Pair before = y, now = moved(y, h, rate(y));
+                for (int i = 1; i < n; ++i) {
+                    const Pair next = moved(before, 2.0 * h, rate(now));
+                    before = now;
+                    now = next;
+                }
+                const Pair last = moved(before, h, rate(now));
+                Pair previous{0.5 * (now.V + last.V), 0.5 * (now.u + last.u)};
+                for (int j = 0; j < c; ++j) {
+                    const double ratio = double(c + 1) / double(c - j), factor = 1.0 / (ratio * ratio - 1.0);
+                    const Pair better =
+                        moved(previous, Real(factor), {previous.V - table[j].V, previous.u - table[j].u});
+                    table[j] = previous;
+                    previous = better;
+                }
+                // table[j] now has column j of this row; the differences are between neighbours.
+                if (c > 0)
+                    change = std::max(std::abs(value_of(previous.V - table[c - 1].V)) / value_of(scale),
+                                      std::abs(value_of(previous.u - table[c - 1].u)));
+                table[c] = previous;
+                if (c > 3 && change < 1e-15) break;
+            }
+            const Pair& best = table[std::min(c, columns - 1)];
+            if (!(change < 1e-12) && part > 1e-5) {
+                part *= 0.5;
+                ++panel;
+                continue;
+            }
+            if (!(change < 1e-6)) return false;
+            y = best;
+            done += part;
+        }
+        return true;
+    }
+    static Pair moved(const Pair& y, const Real& h, const Pair& rate) { return {y.V + h * rate.V, y.u + h * rate.u}; }
+
+    // The rate equations over pseudo-time 0..1: flow along s, with gamma' = (n:d)/(2G (1 + k'/3G)).
+    struct Flow {
+        S s;
+        Real alpha;
+        friend Flow operator+(const Flow& a, const Flow& b) { return {a.s + b.s, a.alpha + b.alpha}; }
+        friend Flow operator-(const Flow& a, const Flow& b) { return {a.s - b.s, a.alpha - b.alpha}; }
+        friend Flow operator*(double f, const Flow& a) { return {Real(f) * a.s, f * a.alpha}; }
+    };
+    Flow rate_of(const Flow& at, const S& d) const {
+        const Real size = norm(at.s), slope = law_.start(at_, at.alpha).slope;
+        const Real along = max(double_contraction(at.s, d) / size, Real(0.0));
+        const Real gamma = along / (2.0 * G_ + (2.0 / 3.0) * slope);
+        return {d - (2.0 * G_ * gamma / size) * at.s, root23 * gamma};
+    }
+    void pull_back(Flow& at) const {
+        const Real R = root23 * law_.start(at_, at.alpha).value;
+        at.s = (R / norm(at.s)) * at.s;
+    }
+    State modified(const State& c, const S& d, double tolerance) const {
+        const auto rate = [&](const Flow& at) { return rate_of(at, d); };
+        const auto error = [](const Flow& e, const Flow& at) { return value_of(norm(e.s)) / value_of(norm(at.s)); };
+        const auto accept = [this](Flow& at) { pull_back(at); };
+        const SubstepControl control{.tolerance = tolerance, .first = 1.0, .smallest = 1e-9, .max_substeps = 100000};
+        const auto end = modified_euler(Flow{c.s, c.alpha}, rate, error, accept, control);
+        if (!end.completed) return backward_euler({c.s + d, c.alpha});
+        return {end.state.s, end.state.alpha};
+    }
+    State forward(const State& c, const S& d, int substeps) const {
+        Flow at{c.s, c.alpha};
+        for (int i = 0; i < substeps; ++i) {
+            at = at + (1.0 / substeps) * rate_of(at, d);
+            pull_back(at);
+        }
+        return {at.s, at.alpha};
+    }
+    // Perfect plasticity: the multiplier times the mean of both flow directions.
+    State trapezoid(const State& c, const S& d, const Real& R) const {
+        const Real along = double_contraction(c.s, d);
+        const Real l = (2.0 * along + double_contraction(d, d)) / (2.0 * (R * R) + along);
+        const S s = (1.0 / (1.0 + 0.5 * l)) * ((1.0 - 0.5 * l) * c.s + d);
+        return {s, c.alpha + root23 * norm(d - (s - c.s)) / (2.0 * G_)};
+    }
+};
+
+}  // namespace lode::iso_plastic

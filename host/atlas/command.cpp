@@ -1,0 +1,188 @@
+#include "command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "../cards.hpp"
+#include "../study/cost.hpp"
+#include "../study/libraries.hpp"
+#include "../study/material_point.hpp"
+#include "../study/meter.hpp"
+#include "../study/paths.hpp"
+#include "../study/variants.hpp"
+#include "../text.hpp"
+#include "element_size.hpp"
+#include "ellipticity.hpp"
+#include "error_map.hpp"
+#include "limit_point.hpp"
+#include "rotation.hpp"
+#include "time_step.hpp"
+
+namespace lode::host {
+namespace {
+
+// A material in a kind, and what maps need to know of it.
+struct Subject {
+    const lode_model& model;
+    const lode_sample& sample;
+    Kind kind;
+    const Library& library;
+
+    Scenario scenario() const {
+        Scenario scene = sample_scenario(model, sample, kind);
+        if (scene.analysis.large_rotation && (model.traits & LODE_FINITE_STRAIN) == 0)
+            scene.analysis.large_rotation = false;
+        return scene;
+    }
+    std::string name() const { return material_name(model, sample); }
+    std::string stem(const std::string& map) const { return fmt::format("{}_{}_{}", name(), name_of(kind), map); }
+    std::string title(const std::string& what) const { return fmt::format("{}, {}: {}", name(), name_of(kind), what); }
+    bool cohesive() const { return is_cohesive(kind); }
+    bool has(unsigned trait) const { return (model.traits & trait) != 0; }
+};
+
+using Sheets = std::vector<Sheet>;
+
+// One for each algorithm that the constants can select, where there is an elastic limit.
+Sheets error_maps(const Subject& s, bool quiet) {
+    Sheets sheets;
+    const Scenario scene = s.scenario();
+    const auto axes = usual_axes(scene, s.library, s.sample.strain_scale);
+    if (!axes) return sheets;
+    std::optional<Scenario> exact;
+    for (int i = 0; i < s.model.algorithm_count; ++i)
+        if (std::isinf(s.model.algorithms[i].order)) {
+            Scenario candidate = with_algorithm(scene, s.model, s.model.algorithms[i]);
+            try {
+                if (MaterialPoint(candidate, s.library).advance(axes->start)) exact = candidate;
+            } catch (const Refused&) {
+            }
+        }
+    if (exact && s.model.algorithm_count == 1) exact.reset();  // it would be compared with itself
+    for (int i = 0; i < s.model.algorithm_count; ++i) {
+        const lode_algorithm& algorithm = s.model.algorithms[i];
+        const Scenario own = with_algorithm(scene, s.model, algorithm);
+        try {
+            Meter meter("atlas: " + s.stem("error"), static_cast<int>(axes->x.size() * axes->y.size()), quiet);
+            // Elastic after the limit as well: nothing to see.
+            const bool is_exact = std::isinf(algorithm.order);
+            const ErrorMap map = error_map(own, s.library, *axes, is_exact ? std::nullopt : exact, &meter);
+            const std::string suffix = s.model.algorithm_count > 1 ? fmt::format("error_{}", i + 1) : "error";
+            sheets.push_back(error_sheet(map, s.stem(suffix), s.title(algorithm.name)));
+        } catch (const Refused&) {
+            // the algorithm does not go with these constants
+        }
+    }
+    return sheets;
+}
+
+Sheets time_step_maps(const Subject& s, bool) {
+    if (s.library.vumat() == nullptr) return {};
+    const Scenario scene = s.scenario();
+    const auto limits = time_step_limits(scene, s.library, s.sample.strain_scale);
+    std::vector<TimeStepLimit> along;
+    if (s.has(LODE_ELASTIC) && !s.cohesive()) along = time_step_along(scene, s.library, s.sample.strain_scale, 8);
+    return {time_step_sheet(limits, along, s.stem("time_step"), s.title("explicit time step of one element"))};
+}
+
+Sheets element_size_maps(const Subject& s, bool) {
+    if (!s.has(LODE_USES_CELENT) || s.cohesive()) return {};
+    const Scenario scene = s.scenario();
+    const auto largest = largest_element(scene, s.library);
+    if (!largest) return {};
+    std::vector<double> fractions;
+    for (double f = 0.5; f > 0.005; f *= 0.5) fractions.push_back(f);
+    const auto runs = dissipation_over_size(scene, s.library, s.sample.strain_scale, largest->length, fractions);
+    return {element_size_sheet(largest, runs, s.stem("element_size"), s.title("softening over the element size"))};
+}
+
+Sheets ellipticity_maps(const Subject& s, bool) {
+    if (s.cohesive() || s.kind == Kind::uniaxial || s.library.umat() == nullptr) return {};
+    std::vector<std::pair<std::string, Ellipticity>> paths;
+    for (Scenario& path : built_in_paths(s.model, s.sample, s.kind))
+        paths.emplace_back(path_name(path), ellipticity_along(with_increments(path, 50), s.library));
+    return {ellipticity_sheet(paths, s.stem("ellipticity"), s.title("acoustic tensor along the built-in paths"))};
+}
+
+Sheets rotation_maps(const Subject& s, bool) {
+    if (s.kind != Kind::solid && s.kind != Kind::plane_strain) return {};
+    const double strain = s.has(LODE_FINITE_STRAIN) ? s.sample.strain_scale : std::max(s.sample.strain_scale, 0.1);
+    const auto errors = rotation_errors(s.scenario(), s.library, strain);
+    return {rotation_sheet(errors, s.stem("rotation"), s.title("large rotation"))};
+}
+
+Sheets limit_point_maps(const Subject& s, bool) {
+    if (s.library.umat() == nullptr) return {};
+    const auto limit = limit_point(s.scenario(), s.library, s.sample.strain_scale);
+    if (!limit) return {};
+    return {limit_point_sheet(*limit, s.stem("limit_point"), s.title("stress control up to a limit point"))};
+}
+
+struct MapKind {
+    const char* name;
+    Sheets (*make)(const Subject&, bool quiet);
+};
+constexpr std::array<MapKind, 6> map_kinds{{{"error", error_maps},
+                                            {"time_step", time_step_maps},
+                                            {"element_size", element_size_maps},
+                                            {"ellipticity", ellipticity_maps},
+                                            {"rotation", rotation_maps},
+                                            {"limit_point", limit_point_maps}}};
+
+}  // namespace
+
+std::vector<std::string> atlas_maps() {
+    std::vector<std::string> names;
+    for (const MapKind& map : map_kinds) names.emplace_back(map.name);
+    return names;
+}
+
+Status atlas(const AtlasOptions& options) {
+    const Library library(options.library);
+    std::vector<std::pair<const lode_model*, const lode_sample*>> samples;
+    if (options.all) samples = all_samples(library);
+    for (const auto& target : options.targets)
+        for (const auto& sample : samples_named(library, target)) samples.push_back(sample);
+    if (samples.empty()) throw Failure(Status::usage, "nothing to map: name materials, or say --all");
+
+    const std::string directory = output_directory(options.output_directory);
+    const Pinned pinned;
+    Meter meter("atlas", static_cast<int>(samples.size() * map_kinds.size()), options.quiet);
+    int sheets = 0;
+    for (const auto& [model, sample] : samples) {
+        const std::vector<Kind> served = kinds_of(model->kinds & sample->kinds);
+        std::vector<Kind> kinds;
+        for (const Kind kind : served)
+            if (options.kinds.empty()
+                    ? kind == served.front()
+                    : std::find(options.kinds.begin(), options.kinds.end(), name_of(kind)) != options.kinds.end())
+                kinds.push_back(kind);
+        for (const Kind kind : kinds)
+            for (const MapKind& map : map_kinds) {
+                const bool wanted = options.maps.empty() ||
+                                    std::find(options.maps.begin(), options.maps.end(), map.name) != options.maps.end();
+                const Subject subject{*model, *sample, kind, library};
+                meter.advance(subject.stem(map.name));
+                if (!wanted) continue;
+                try {
+                    for (const Sheet& sheet : map.make(subject, options.quiet)) {
+                        const std::string failure = write_sheet(sheet, directory);
+                        if (!failure.empty()) fmt::print(stderr, "lode: {}\n", failure);
+                        if (!options.quiet) fmt::print("{}", sheet.text);
+                        ++sheets;
+                    }
+                } catch (const Refused& refusal) {
+                    fmt::print(stderr, "lode: {}: {}\n", subject.stem(map.name), refusal.what());
+                }
+            }
+    }
+    if (!options.quiet) fmt::print("{} maps in {}\n", sheets, directory);
+    return Status::success;
+}
+
+}  // namespace lode::host

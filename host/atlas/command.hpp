@@ -1,0 +1,26 @@
+// `lode atlas`: where methods fail, as maps.
+#ifndef LODE_HOST_ATLAS_COMMAND_HPP
+#define LODE_HOST_ATLAS_COMMAND_HPP
+
+#include <string>
+#include <vector>
+
+#include "../status.hpp"
+
+namespace lode::host {
+
+struct AtlasOptions {
+    std::vector<std::string> targets;  // KEYWORD or KEYWORD-LABEL
+    bool all = false;                  // every material of the library
+    std::vector<std::string> maps;     // empty: all that make sense for the material
+    std::string library, output_directory = ".";
+    std::vector<std::string> kinds;  // empty: the fullest kind
+    bool quiet = false;
+};
+
+std::vector<std::string> atlas_maps();
+Status atlas(const AtlasOptions& options);
+
+}  // namespace lode::host
+
+#endif
