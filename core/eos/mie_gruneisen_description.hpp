@@ -69,7 +69,6 @@ inline constexpr double tungsten[] = {1.93e-8, 4.029e6, 1.54, 1.24,     0.0, 0.0
 inline constexpr double steel[] = {7.85e-9, 4.57e6, 2.17,    1.49, 0.0,   0.0,   4.77e8, 300.0, 1,
                                    2,       0.0,    77000.0, 3,    350.0, 275.0, 0.36,   0.022, 1.0,
                                    1.0,     1811.0, 0.0,     0.0,  0.0,   293.0, 1.0,    0.9};
-inline constexpr double water[] = {1e-9, 1.48e6, 0.11, 2.56, -1.986, 0.2268};
 inline constexpr lode_sample samples[] = {
     {"COPPER", "copper, adiabatic, linear hardening, t, mm, s, K", copper, count_of(copper), 0.05, served},
     {"TUNGSTEN", "tungsten at the host's temperature, power law, stiffness limit, t, mm, s, K", tungsten,

@@ -156,22 +156,23 @@ class Update {
         stress = v.inverse * deviator(stress);
         add_to_normals(stress, 3, c.dilatation.derivative(v));
 
-        // T and H_k of the end and, in the frame of the end, the energies: per current volume.
+        // T and H_k of the end and, in the frame of the end, the energies: per current volume. What an element
+        // dissipates is that of h = dev(Fb H Fb^T) driven at a constant rate, which stays below what it has stored.
         const Stress<full, Real> T_new = instantaneous_stress<full>(k.h, k.j, cube_root, inverse2);
-        const Real inverse_modulus(1.0 / (c.G1 + c.G2));
+        const double inverse_modulus = 1.0 / (c.G1 + c.G2);
         Real energy =
             c.dilatation.energy(v) + c.long_time_share * MooneyRivlin::shape_energy(c.G1, c.G2, k, cube_root, inverse2);
-        Real dissipated(0.0);
+        const auto dh = deviator(inverse2 * pushed_forward<full>(T_new - T_old, f));
+        Real dissipated = step.terms.dissipated * double_contraction(dh, dh);
         for (int t = 0; t < terms; ++t) {
             const Stress<full, Real> H = term<full>(state, t), H_new = relaxed(step, t, H, T_old, T_new);
             const auto h0 = deviator(inverse2 * pushed_forward<full>(H, f));
             const auto h1 = deviator(inverse2 * pushed_forward<full>(H_new, f));
-            const Real h11 = double_contraction(h1, h1);
-            const X x = step.dtr * c.series.inverse_time[static_cast<std::size_t>(t)];
-            energy = energy + (0.25 * c.series.G(t)) * inverse_modulus * h11;
-            dissipated = dissipated + ((1.0 / 6.0) * c.series.G(t)) * x *
-                                          (inverse_modulus * (double_contraction(h0, h0 + h1) + h11));
+            energy = energy + (0.25 * c.series.G(t) * inverse_modulus) * double_contraction(h1, h1);
+            dissipated = dissipated + (step.terms.a11[t] * double_contraction(h0, h0) +
+                                       step.terms.twice_a12[t] * double_contraction(h0, dh));
         }
+        dissipated = (0.5 * inverse_modulus) * dissipated;
         energy = v.inverse * energy;
         dissipated = v.inverse * dissipated;
 

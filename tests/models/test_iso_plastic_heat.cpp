@@ -98,7 +98,9 @@ TEST(IsoPlasticHeat, T4AdiabaticJohnsonCook) {
         expect_printed(point.stress()[3], c.stress);
         // First order towards T = TMELT - (TMELT - T0) exp{-CHI [A alpha + B alpha^(n+1)/(n+1)]/(RHOCV (TMELT - T0))}.
         const double error = point.stress()[3] - 638.451315104;
-        if (previous != 0.0) EXPECT_NEAR(previous / error, 10.0, 0.2);
+        if (previous != 0.0) {
+            EXPECT_NEAR(previous / error, 10.0, 0.2);
+        }
         previous = error;
     }
     // The critical strain of section 5: the total slope dK/dalpha + K_theta CHI K/RHOCV changes sign.
