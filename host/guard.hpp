@@ -21,6 +21,16 @@ bool guarded(Call&& call) {
     return run_guarded([](void* data) { (*static_cast<std::remove_reference_t<Call>*>(data))(); }, &call);
 }
 
+// While it lives, this thread's messages of the library are kept but not printed: for calls that are expected to be
+// refused.
+class Muted {
+  public:
+    Muted();
+    ~Muted();
+    Muted(const Muted&) = delete;
+    Muted& operator=(const Muted&) = delete;
+};
+
 // The last message of severity error or worse since the start, for reports; empty if there was none.
 const std::string& last_library_error();
 

@@ -4,7 +4,7 @@
 
 #include "lode/damage/iso_softening_description.hpp"
 #include "lode/damage/softening_onset.hpp"
-#include "lode/damage/softening_tangent.hpp"
+#include "lode/damage/softening_update.hpp"
 #include "lode/elastic/isotropic_moduli.hpp"
 
 namespace lode {
@@ -190,117 +190,54 @@ struct IsoSoftening {
     }
 
     template <AnalysisKind kind, class Real, class T>
-    LODE_INLINE void update_cracked(const Increment<kind, Real>& increment, Point<kind, Real>& point,
-                                    const Real& stage_old, const Mask<Real>& intact, const OnsetPlane<Real>& plane,
+    LODE_INLINE void update_cracked(const Increment<kind, Real>& increment, Point<kind, Real>& point, const Real& stage,
+                                    const Mask<Real>& intact, const OnsetPlane<Real>& plane,
                                     const Step<kind, Real>& step, T& tangent) const {
-        constexpr int m = crack_directions(kind);
+        using Update = CrackUpdate<kind, Real>;
         const State<Real>& state = point.state;
-        const Real zero(0.0);
-        auto law = directions(step);
-
-        CrackAxes<Real> axes = CrackAxes<Real>::read(state, softening_state::AXIS_N);
+        Update crack_update;
+        auto& law = crack_update.law = directions(step);
+        auto& axes = crack_update.axes = CrackAxes<Real>::read(state, softening_state::AXIS_N);
         if (frame_turns(increment)) axes.turn(increment.rotation());
-        CrackState<m, Real> old = softening_state::read<m>(state);
+        crack_update.old = softening_state::read<Update::m>(state);
         const Mask<Real> preset = !intact && !step.size.frozen;
         if (any(preset)) [[unlikely]] {
             axes.normalise(preset, kind != AnalysisKind::solid);
-            crack.set_predamaged(preset, stage_old, law, old);
+            crack.set_predamaged(preset, stage, law, crack_update.old);
         }
-        if (any(step.cracks))
-            for (int i = 0; i < 3; ++i) {
-                axes.N[i] = select(step.cracks, plane.N[i], axes.N[i]);
-                axes.T[i] = select(step.cracks, plane.T[i], axes.T[i]);
-            }
+        if (any(step.cracks)) axes.choose(step.cracks, plane.N, plane.T);
         axes.set_third();
+        set_stiffness_vectors(crack_update);
 
-        // Effective strains: q = T/C + EC on each side of the increment, q_n = eps_xx + C12/C11 (eps_yy + eps_zz).
-        const Vector<Real, m> traction_old = axes.template tractions<kind>(point.stress);
-        const Vector<Real, m> traction_trial = axes.template tractions<kind>(step.trial);
-        Vector<Real, m> q_old, q;
-        for (int j = 0; j < m; ++j) {
-            const double inverse = 1.0 / (j == 0 ? elastic.normal_stiffness<kind>() : elastic.shear);
-            q_old[j] = inverse * traction_old[j] + old.strain[j];
-            q[j] = inverse * traction_trial[j] + old.strain[j];
-        }
-
-        // Damage, section 5.
-        const Mask<Real> failed_before = stage_old > Real(1.5);
-        const Mask<Real> damaging = step.cracks || (!intact && !failed_before);
-        CrackState<m, Real> now = old;
-        using Rates = std::conditional_t<wants_tangent<T>, DamageRates<m>, NoRates>;
-        Rates rates;
-        Mask<Real> fails = Mask<Real>(false);
-        if (any(damaging)) {
-            if constexpr (m > 1) {
+        const Mask<Real> damaging = step.cracks || (!intact && stage < Real(1.5));
+        std::conditional_t<wants_tangent<T>, DamageRates<Update::m>, NoRates> rates;
+        const auto damage = [&](const auto& q_old, const auto& q) __attribute__((always_inline)) {
+            if constexpr (Update::m > 1)
                 if (depends_on_pressure<kind>()) {
-                    const auto p = crack_pressure(step, old.strain[0], law[1]);
-                    fails = crack.damage(q_old, q, damaging, law, p, now, rates);
-                } else {
-                    fails = crack.damage(q_old, q, damaging, law, NoPressure{}, now, rates);
+                    const auto p = crack_pressure(step, crack_update.old.strain[0], law[1]);
+                    return crack.damage(q_old, q, damaging, law, p, crack_update.now, rates);
                 }
-            } else {
-                fails = crack.damage(q_old, q, damaging, law, NoPressure{}, now, rates);
-            }
-        }
-        const Mask<Real> failed = failed_before || fails;
-        now.strain[0] = now.damage[0] * positive_part(q[0]);
-        for (int j = 1; j < m; ++j) now.strain[j] = now.damage[j] * q[j];
-        Real friction_work = zero;
-        [[maybe_unused]] double B[m][m];
-        if (any(failed)) {
-            Vector<Real, m> strain;
-            if constexpr (wants_tangent<T>) strain = crack.failed_strain(q, old.strain, law, friction_work, B);
-            else strain = crack.failed_strain(q, old.strain, law, friction_work);
-            for (int j = 0; j < m; ++j) now.strain[j] = select(failed, strain[j], now.strain[j]);
-            friction_work = select(failed_before, friction_work, zero);
-        }
+            return crack.damage(q_old, q, damaging, law, NoPressure{}, crack_update.now, rates);
+        };
+        CrackLinearisation<kind> linear;
+        crack_update.run(crack, point.stress, step.trial, stage, damaging, damage, &linear, tangent);
 
-        // sigma = trial - C d(eps_c) = trial - lambda dEC_N 1 - G (N v + v N), v = dEC_N N + dGC_Y T + dGC_Z Z.
-        Vector<Real, m> change;
-        for (int j = 0; j < m; ++j) change[j] = now.strain[j] - old.strain[j];
-        if constexpr (kind == AnalysisKind::uniaxial) {
-            point.stress[0] = step.trial[0] - elastic.young * change[0];
-        } else {
-            const auto dyad = symmetric_dyad<kind>(axes.N, axes.combine(change));
-            const Real volumetric = elastic.coupling_stiffness<kind>() * change[0];
-            for (int i = 0; i < components(kind); ++i) {
-                point.stress[i] = step.trial[i] - elastic.shear * dyad[i];
-                if (i < normal_components(kind)) point.stress[i] = point.stress[i] - volumetric;
-            }
-        }
-
-        // Energies, section 7. The sliding of a failed crack stores nothing.
-        Real stored = zero, dissipated = friction_work;
-        for (int j = 0; j < m; ++j) {
-            const double C = j == 0 ? elastic.normal_stiffness<kind>() : elastic.shear;
-            const Real work = 0.5 * C * (q[j] - now.strain[j]) * now.strain[j];
-            stored = stored + (j == 0 ? work : select(failed, zero, work));
-            dissipated = dissipated + (now.dissipated[j] - old.dissipated[j]);
-        }
-        point.elastic_energy = elastic.energy<kind>(point.stress) + stored;
-        point.plastic_dissipation = dissipated;
-        set_thickness(point, step, change[0]);
+        point.stress = crack_update.stress;
+        point.elastic_energy = elastic.energy<kind>(point.stress) + crack_update.stored;
+        point.plastic_dissipation = crack_update.dissipated;
+        set_thickness(point, step, Real(crack_update.now.strain[0] - crack_update.old.strain[0]));
 
         if constexpr (wants_tangent<T>) {
-            CrackLinearisation<kind> linear;
-            for (int j = 0; j < m; ++j) linear.modulus[j] = law[j].modulus;
-            set_stiffness_vectors(axes, linear);
-            if (failed) {
-                for (int i = 0; i < m; ++i)
-                    for (int j = 0; j < m; ++j) linear.B[i][j] = B[i][j];
-            } else {
-                linear.set_damaged(q, now.damage, rates, pressure_stiffness<kind>());
-            }
+            crack_update.linearise(rates, pressure_stiffness<kind>(), linear);
             elastic.set_stiffness<kind>(tangent);
             if (step.cracks && kind != AnalysisKind::uniaxial)
-                set_turning_tangent(axes, plane, step, now.strain, linear, tangent);
+                set_turning_tangent(axes, plane, step, crack_update.now.strain, linear, tangent);
             else linear.apply(tangent);
             set_thermal_stress(tangent);
         }
-
-        softening_state::store(point.state, axes, now, step.cracks || !intact, failed, step.size.length,
-                               Real(select(step.cracks, plane.mode, state[softening_state::MODE])), friction_work,
-                               deletes);
+        const Real mode = select(step.cracks, plane.mode, state[softening_state::MODE]);
+        softening_state::store(point.state, axes, crack_update.now, step.cracks || !intact, crack_update.failed,
+                               step.size.length, mode, crack_update.friction_work, deletes);
     }
 
     // Elastic out-of-plane strain of plane stress and its residual part; `opening`: change of EC_N.
@@ -317,17 +254,17 @@ struct IsoSoftening {
     }
 
     // C_n m_n = lambda 1 + 2G N N, C_y m_y = G (N T + T N), C_z m_z = G (N Z + Z N).
-    template <AnalysisKind kind>
-    LODE_INLINE void set_stiffness_vectors(const CrackAxes<double>& axes, CrackLinearisation<kind>& linear) const {
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE void set_stiffness_vectors(CrackUpdate<kind, Real>& update) const {
         if constexpr (kind == AnalysisKind::uniaxial) {
-            linear.stiffness[0][0] = elastic.young;
+            update.stiffness[0][0] = Real(elastic.young);
         } else {
-            for (int j = 0; j < linear.m; ++j) {
-                const auto dyad = symmetric_dyad<kind>(axes.N, axes[j]);
-                for (int i = 0; i < components(kind); ++i) linear.stiffness[j][i] = elastic.shear * dyad[i];
+            for (int j = 0; j < update.m; ++j) {
+                const auto dyad = symmetric_dyad<kind>(update.axes.N, update.axes[j]);
+                for (int i = 0; i < components(kind); ++i) update.stiffness[j][i] = elastic.shear * dyad[i];
             }
             for (int i = 0; i < normal_components(kind); ++i)
-                linear.stiffness[0][i] += elastic.coupling_stiffness<kind>();
+                update.stiffness[0][i] = update.stiffness[0][i] + elastic.coupling_stiffness<kind>();
         }
     }
 

@@ -92,7 +92,8 @@ inline constexpr double sandstone[] = {20000.0, 0.25, 5.0, 4.0,  1,   0.1,  1,  
 inline constexpr double salt[] = {25000.0, 0.25, 2.0,  3.0, 3,    0.05, 2,   0.2, 2, 1.0,  1.0, 0.0, 0.0,
                                   0.0,     0.0,  0.01, 0.3, 4e-5, 0.0,  5.0, 0,   4, 15.0, 5.0, 4.0};
 inline constexpr lode_sample samples[] = {
-    {"C30", "plain concrete in tension, linear softening, N, mm", concrete, count_of(concrete), 5e-4, tension_kinds},
+    {"CONCRETE-C30", "plain concrete in tension, linear softening, N, mm", concrete, count_of(concrete), 5e-4,
+     tension_kinds},
     {"GYPSUM", "gypsum in tension, exponential softening, thermal expansion, N, mm, K", gypsum, count_of(gypsum), 2e-3,
      tension_kinds},
     {"ROCK", "limestone, independent modes, mixed-mode criterion, friction, N, mm", rock, count_of(rock), 1e-3,

@@ -113,19 +113,18 @@ inline constexpr unsigned plane_kinds = LODE_PLANE_STRAIN | LODE_PLANE_STRESS;
 inline constexpr double laminate[] = {30000.0, 8000.0, 8000.0, 0.3, 0.3, 0.4, 3500.0, 3500.0, 2500.0, 500.0,
                                       60.0,    60.0,   30.0,   2.0, 2.0, 40., 50.0,   45.0,   0.3,    0.8,
                                       0.9,     40.0,   50.0,   45., 0.3, 0.8, 0.9,    1,      1,      0};
-inline constexpr double wood[] = {11000.0, 900.0, 500.0, 0.37, 0.42, 0.47, 690.0, 620.0, 36.0, 60.0, 9.0, 9.0, 6.0,
-                                  1.2,     1.2,   4.0,   8.0,  2.5,  0.25, 0.8,   0.3,   3.0,  8.0,  2.5, 0.2, 0.8,
-                                  0.3,     2,     3,     2,    0,    1.0,  1.0,   0.0,   0.0,  0.0,  0.0, 1e-2, 0.3,
-                                  4e-6,    4e-5,  5e-5,  0.0,  0.0,  0.0,  5.0};
-inline constexpr double ply[] = {30000.0, 8000.0, 8000.0, 0.3, 0.3, 0.4, 3500.0, 3500.0, 8000.0 / 2.8, 500.0, 60.0, 60.0,
-                                 30.0,    2.0,    2.0,    40., 50., 45., 0.3,    0.8,    0.9,          40.0,  50.0, 45.0,
-                                 0.3,     0.8,    0.9,    1,   2,   1,   1,      1.2,    0.8,          0.0,   0.0,  0.0,
-                                 0.0,     0.01,   0.2,    1e-6, 3e-5, 3e-5, 0.0, 0.0,    0.0,          0.5};
-inline constexpr double shale[] = {20000.0, 20000.0, 12000.0, 0.2, 0.25, 0.25, 20000.0 / 2.4, 5000.0, 5000.0, 8.0,
-                                   10.0,    9.0,     0.1,     0.3, 0.3,  8.0,  10.0,          9.0,    0.1,    0.3,
-                                   0.3,     3.0,     6.0,     6.0, 0.05, 0.2,  0.2,           1,      1,      4,
-                                   3,       1.0,     1.0,     0.0, 0.0,  0.0,  0.0,           0.01,   0.4,    1e-5,
-                                   1e-5,    1.5e-5,  0.0,     0.0, 0.0,  10.0};
+inline constexpr double wood[] = {11000.0, 900.0, 500.0, 0.37, 0.42, 0.47, 690.0, 620.0, 36.0, 60.0, 9.0, 9.0,
+                                  6.0,     1.2,   1.2,   4.0,  8.0,  2.5,  0.25,  0.8,   0.3,  3.0,  8.0, 2.5,
+                                  0.2,     0.8,   0.3,   2,    3,    2,    0,     1.0,   1.0,  0.0,  0.0, 0.0,
+                                  0.0,     1e-2,  0.3,   4e-6, 4e-5, 5e-5, 0.0,   0.0,   0.0,  1.5};
+inline constexpr double ply[] = {
+    30000.0, 8000.0, 8000.0, 0.3, 0.3, 0.4,  3500.0, 3500.0, 8000.0 / 2.8, 500.0, 60.0, 60.0, 30.0, 2.0, 2.0, 40.,
+    50.,     45.,    0.3,    0.8, 0.9, 40.0, 50.0,   45.0,   0.3,          0.8,   0.9,  1,    2,    1,   1,   1.2,
+    0.8,     0.0,    0.0,    0.0, 0.0, 0.01, 0.2,    1e-6,   3e-5,         3e-5,  0.0,  0.0,  0.0,  0.5};
+inline constexpr double shale[] = {
+    20000.0, 20000.0, 12000.0, 0.2, 0.25, 0.25, 20000.0 / 2.4, 5000.0, 5000.0, 8.0,    10.0, 9.0, 0.1, 0.3, 0.3, 8.0,
+    10.0,    9.0,     0.1,     0.3, 0.3,  3.0,  6.0,           6.0,    0.05,   0.2,    0.2,  1,   1,   4,   3,   1.0,
+    1.0,     0.0,     0.0,     0.0, 0.0,  0.01, 0.4,           1e-5,   1e-5,   1.5e-5, 0.0,  0.0, 0.0, 10.0};
 inline constexpr lode_sample samples[] = {
     {"LAMINATE", "glass-fibre laminate, independent directions, N, mm", laminate, count_of(laminate), 2e-2, LODE_SOLID},
     {"WOOD", "spruce, ovoid surface, exponential and smooth laws, friction, N, mm, K", wood, count_of(wood), 3e-2,
@@ -148,8 +147,9 @@ inline constexpr lode_model description = {
     .keyword = "ORTHO_SOFTENING",
     .title = "Orthotropic solid that softens on one crack plane",
     .family = "damage",
-    .purpose = "Fibre composites, wood, bedded rock: as ISO_SOFTENING, with cracks on the planes of symmetry of the "
-               "material or, in a transversely isotropic one, on any plane that contains its axis.",
+    .purpose =
+        "Fibre composites, wood, bedded rock: as ISO_SOFTENING, with cracks on the planes of symmetry of the "
+        "material or, in a transversely isotropic one, on any plane that contains its axis.",
     .source = "Nairn, chapter 5 (anisotropic damage mechanics)",
     .kinds = LODE_SOLID | LODE_PLANE_STRAIN | LODE_PLANE_STRESS,
     .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT,

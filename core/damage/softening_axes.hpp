@@ -55,6 +55,12 @@ struct CrackAxes {
         return axes;
     }
     LODE_INLINE void set_third() { Z = cross(N, T); }
+    LODE_INLINE void choose(const Mask<Real>& where, const Vector<Real, 3>& normal, const Vector<Real, 3>& tangent) {
+        for (int i = 0; i < 3; ++i) {
+            N[i] = select(where, normal[i], N[i]);
+            T[i] = select(where, tangent[i], T[i]);
+        }
+    }
 
     // Turned with the host's frame.
     LODE_INLINE void turn(const Matrix3<Real>& rotation) {
@@ -98,10 +104,7 @@ struct CrackAxes {
             }
             for (int i = 0; i < 3; ++i) t[i] = t[i] / length;
         }
-        for (int i = 0; i < 3; ++i) {
-            N[i] = select(where, n[i], N[i]);
-            T[i] = select(where, t[i], T[i]);
-        }
+        choose(where, n, t);
     }
 
     // Traction on the crack plane in the directions n, y, z.

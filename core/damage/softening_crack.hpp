@@ -250,8 +250,7 @@ class SofteningCrack {
     LODE_INLINE void grow_direction(int j, const Real& eps, const SofteningDirection<Real>& direction,
                                     Growth<m, Real>& g) const {
         const SofteningLaw& softening = law(j);
-        const Mask<Real> grows =
-            g.enabled[j] && eps > (1.0 + softening_growth_tolerance) * g.e_old[j] && g.d_old[j] < Real(1.0);
+        const Mask<Real> grows = g.enabled[j] && eps > (1.0 + softening_growth_tolerance) * g.e_old[j];
         g.grows[j] = grows;
         if (!any(grows)) return;
         const Real x = eps / direction.length, r = direction.brittleness;
@@ -287,8 +286,7 @@ class SofteningCrack {
                 linked.u[k] = g.u_old[j];
                 sum = sum + square(linked.strain[k] / g.e_old[j]);
             }
-            linked.active =
-                g.enabled[first] && sum > Real(1.0 + 2.0 * softening_growth_tolerance) && g.d_old[first] < Real(1.0);
+            linked.active = g.enabled[first] && sum > Real(1.0 + 2.0 * softening_growth_tolerance);
             g.grows[first] = linked.active;
             if (any(linked.active)) {
                 linked.d = g.d_old[first];
@@ -459,8 +457,7 @@ class SofteningCrack {
             return x;
         };
         UnderPressure<Real> step;
-        const Mask<Real> sound = enabled && d_old < Real(1.0);
-        step.grows = sound && evaluate(d_old, sound).value > Real(2.0 * softening_growth_tolerance);
+        step.grows = enabled && evaluate(d_old, enabled).value > Real(2.0 * softening_growth_tolerance);
 
         SofteningDirection<Real> last = s;
         last.set_strength(pressure.strength(q).value, energy);
@@ -480,7 +477,7 @@ class SofteningCrack {
         last.set_strength(step.tau.value, energy);
         const Mask<Real> damaged = d_old > Real(0.0);
         step.u_old =
-            select(damaged, shear_law.at_damage(d_old, last.brittleness, Real(0.0), sound && damaged).u, Real(0.0));
+            select(damaged, shear_law.at_damage(d_old, last.brittleness, Real(0.0), enabled && damaged).u, Real(0.0));
         return step;
     }
     template <class Real>

@@ -101,7 +101,7 @@ inline constexpr double joint[] = {24900.0, 0.18, 2.7, 14.9, 90.0, 42.7, 0.06135
 inline constexpr double rankine[] = {24900.0, 0.18, 2.7, 14.9, 90.0, 42.7, 0.06135, 0.0, 0.2, 0.1,
                                      5.0,     1,    0,   1,    30.0, 0.0,  0.0,     0.0, 0.0, 4.0};
 inline constexpr lode_sample samples[] = {
-    {"CONCRETE", "concrete, up to three cracks on searched planes, N, mm", concrete, count_of(concrete), 3e-4,
+    {"CONCRETE", "concrete, up to three cracks on searched planes, N, mm", concrete, count_of(concrete), 2.5e-4,
      LODE_SOLID},
     {"WALL", "concrete, exponential softening, two cracks at least 45 degrees apart, thermal expansion, N, mm, 1/K",
      wall, count_of(wall), 3e-4, LODE_PLANE_STRAIN | LODE_PLANE_STRESS},
@@ -127,7 +127,7 @@ inline constexpr lode_model description = {
         "crack starts; the crack is smeared over the element and softens in opening and shear.",
     .source = "Sanchez, sections 2.3-2.4, 3.5.2-3.5.4, 4.5, 5.2.1, 5.5 and appendix C",
     .kinds = continuum_kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_OPEN_ENERGY,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 7,
@@ -152,8 +152,9 @@ inline constexpr lode_model description = {
         "not unique and the first takes everything (one warning for the angle ALPHA_TH). No convergence of the "
         "coupled cracks: UMAT asks for half the increment, VUMAT goes on with a warning. A large ALPHA_TH leaves "
         "directions without any limit of the stress.\n"
-        "- Failure in mixed mode drops the shear traction to friction at one instant; the energy of that drop is not "
-        "in SPD. Axial splitting (no traction on the plane) does not soften before it fails: use dynamics or lateral "
+        "- Failure in mixed mode drops the shear traction to friction at one instant, and a crack that ALPHA_TH has "
+        "held back starts above its strength: the energy of such drops is in none of SSE, SPD, SCD. Axial splitting "
+        "(no traction on the plane) does not soften before it fails: use dynamics or lateral "
         "confinement.\n"
         "- The dissipation of a crack that opens against compression with little shear is negative; it is neither "
         "clamped nor refused.\n"

@@ -227,6 +227,19 @@ LODE_INLINE Real mean_excess(const Stress<kind, Real>& d) {
     return w;
 }
 
+// Dissipation over the plastic work |s| l of the flow rule, which takes elastic shear strains as small: the flow
+// changes dev(bbar) by -2 (mubar/mu) l n and, so that det bbar stays 1, tr(bbar) by what the energy mu tr(bbar)/2 then
+// loses,
+//     -3 x s:bbar^-1/(d:d mu tr(bbar^-1)),   bbar = d + x I.
+template <AnalysisKind kind, class Real>
+LODE_INLINE Real dissipation_ratio(const Stress<kind, Real>& d, const Real& excess) {
+    const Real x = 1.0 + excess, p = 0.5 * double_contraction(d, d);
+    const Mask<Real> sheared = p > Real(0.0);
+    const Real ratio =
+        3.0 * x * (x * p - 1.5 * determinant_of(d)) / (select(sheared, p, Real(1.0)) * (3.0 * x * x - p));
+    return select(sheared, ratio, Real(1.0));
+}
+
 // Sum of the entries: finite where all of them are.
 template <AnalysisKind kind, class Real>
 LODE_INLINE Real sum_of(const Stress<kind, Real>& a) {

@@ -71,19 +71,18 @@ struct Kernel {
         const Real excess = finite_j2::mean_excess(d);
         point.elastic_energy = v.inverse * (c.dilatation.energy(v) + 1.5 * c.moduli.shear * excess);
         const Real work = r.dalpha * r.measure * r.K;
-        Real released(0.0);  // by the return from the trial state, G/2 times the change of tr(bbar)
+        Real dissipated(0.0);
         if (any(r.yields)) {
-            const auto d_trial = (1.0 / shear) * r.s_trial;
-            released = select(r.yields, 1.5 * c.moduli.shear * (finite_j2::mean_excess(d_trial) - excess), Real(0.0));
+            dissipated = work * finite_j2::dissipation_ratio(d, excess);
             const auto flowed = finite_j2::inverse_plastic_strain<full>(f, d, excess, inverse2);
             for (int i = 0; i < n; ++i) cpi[i] = select(r.yields, flowed[i], cpi[i]);
         }
         const Mask<Real> sound =
-            is_finite(trace(stress) + point.elastic_energy + work + released + finite_j2::sum_of(cpi));
+            is_finite(trace(stress) + point.elastic_energy + work + dissipated + finite_j2::sum_of(cpi));
         if (!all(sound)) [[unlikely]]
             return point.fail(!sound, "the stress is not finite");
         point.stress = without_thickness<kind>(stress);
-        point.plastic_dissipation = v.inverse * released;
+        point.plastic_dissipation = inverse_J * dissipated;
 
         if constexpr (wants_tangent<T>) set_tangent(increment, point, v, inverse_J, r, alpha, work, law, tangent);
 

@@ -21,8 +21,8 @@ namespace lode {
 // and, if it has something to say at creation, `std::string warnings() const`. A model with variants (a hardening law,
 // an option) may also have `specialise(f)`, which calls f with the one `update`-able kernel that its constants ask for:
 // then each variant gets code of its own, free of the others. What a kernel can compute from DTIME alone it does in
-// `prepared(TimeIncrement)`, which returns what has `update` then and is called once for a whole block. A kernel that reads the deformation without the trait
-// LODE_FINITE_STRAIN says so by `static constexpr bool reads_stretch = true`.
+// `prepared(TimeIncrement)`, which returns what has `update` then and is called once for a whole block. A kernel that
+// reads the deformation without the trait LODE_FINITE_STRAIN says so by `static constexpr bool reads_stretch = true`.
 template <class Model>
 concept MaterialModel = std::constructible_from<Model, const Properties&> &&
     requires(const Model& model, AnalysisKind kind) {

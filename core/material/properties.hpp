@@ -47,9 +47,8 @@ class Properties {
         while (required > 0 && (parameter(required).flags & LODE_OPTIONAL) != 0) --required;
         if (count < required) {
             std::string message = std::string(material_) + ": " + model.keyword + " needs at least " +
-                                  std::to_string(required) +
-                                  " constants, NPROPS = " + std::to_string(count) + "; the first one missing is " +
-                                  label(count + 1);
+                                  std::to_string(required) + " constants, NPROPS = " + std::to_string(count) +
+                                  "; the first one missing is " + label(count + 1);
             throw BadProperty(message);
         }
         for (int i = 1; i <= count && i <= static_cast<int>(places_.size()); ++i) {

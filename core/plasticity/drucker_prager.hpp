@@ -13,7 +13,6 @@
 #include "lode/plasticity/plastic_strain.hpp"
 #include "lode/plasticity/softening_scale.hpp"
 #include "lode/tensor/invariants.hpp"
-#include "lode/tensor/rotation.hpp"
 
 namespace lode {
 
@@ -357,35 +356,6 @@ struct DruckerPrager {
     }
 
   private:
-    // eta and xi of an angle in degrees (section 4).
-    static void fit(int which, double degrees, double& eta, double& xi) {
-        double cosine, sine;
-        cosine_and_sine(degrees, cosine, sine);
-        const double denominator = which == 3 ? std::sqrt(9.0 * cosine * cosine + 12.0 * sine * sine)
-                                              : std::sqrt(3.0) * (which == 1 ? 3.0 - sine : 3.0 + sine) / 2.0;
-        eta = 3.0 * sine / denominator;
-        xi = 3.0 * cosine / denominator;
-    }
-
-    static drucker_prager::Cone make_cone(const Properties& p) {
-        using namespace drucker_prager;
-        const int which = p.code(FIT);
-        if (which == 0) {
-            if (p[DILA] > p[FRIC])
-                p.refuse(DILA, "in [0, " + format_number(p[FRIC]) + "]: eta_bar > eta dissipates negative power");
-            return {p[FRIC], p[DILA], p[XI]};
-        }
-        if (p[FRIC] >= 90.0) p.refuse(FRIC, "in [0, 90) degrees");
-        if (p[DILA] > p[FRIC])
-            p.refuse(DILA, "in [0, " + format_number(p[FRIC]) +
-                               "] degrees: more dilation than friction dissipates negative power");
-        Cone cone;
-        double unused;
-        fit(which, p[FRIC], cone.eta, cone.xi);
-        fit(which, p[DILA], cone.eta_bar, unused);
-        return cone;
-    }
-
     static HardeningLaw hardening_law(const Properties& p) {
         using namespace drucker_prager;
         return HardeningLaw(p, p[COH], HLAW, H1);
@@ -400,7 +370,7 @@ struct DruckerPrager {
         if (p.code(METHOD) == 1) p.refuse(METHOD, "0 or 2: the exact integration of METHOD 1 is ISO_PLASTIC's");
         if (hardening.is_softening() && p[LREF] <= 0.0) p.refuse(LREF, "> 0: softening law needs LREF > 0");
         const Constants c{.elastic = IsotropicModuli::from_young_poisson(p[E], p[NU]),
-                          .cone = make_cone(p),
+                          .cone = Cone::from_properties(p, FIT, XI),
                           .initial_cohesion = p[COH],
                           .thermal_expansion = p[ALPHA],
                           .moisture_expansion = p[BETA],

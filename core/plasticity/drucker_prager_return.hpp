@@ -2,14 +2,10 @@
 // Nairn, eqs. 2.82-2.96), and its linearisation.
 #pragma once
 
+#include "lode/plasticity/drucker_prager_cone.hpp"
 #include "lode/plasticity/hardening_law.hpp"
 
 namespace lode::drucker_prager {
-
-// Phi = q - eta p - xi c(alpha), Psi = q - eta_bar p, dalpha = xi lambda.
-struct Cone {
-    double eta, eta_bar, xi;
-};
 
 // End of a step. The deviator is s = (1 - loss) s_trial.
 template <class Real>
@@ -121,7 +117,17 @@ class ConeReturn {
     }
 
   private:
-    static constexpr bool is_straight = std::is_same_v<Law, LinearHardening> || std::is_same_v<Law, LinearSoftening>;
+    // What the iteration has left of driving = unloading dalpha + c, so that the answer does not depend on where it
+    // stopped.
+    template <class Real>
+    LODE_INLINE static void finish(Real& dalpha, FlowStress<Real>& c, const Real& driving, double unloading) {
+        if constexpr (!std::is_same_v<Law, LinearHardening> && !std::is_same_v<Law, LinearSoftening>) {
+            const Real stiffness = unloading + c.slope, left = driving - unloading * dalpha - c.value;
+            const Real more = left / select(stiffness > Real(0.0), stiffness, Real(unloading));
+            dalpha = dalpha + more;
+            c.value = c.value + c.slope * more;
+        }
+    }
 
     // Step 4: s = 0 and the plastic volume strain x brings p to -(xi/eta) c(alpha + r x), r = xi/eta_bar. Without
     // dilatancy nothing hardens there. `end` holds what the cone says.

@@ -5,9 +5,9 @@
 
 #include <variant>
 
-#include "lode/elastic/material_axes.hpp"
 #include "lode/material/thermal_block.hpp"
 #include "lode/numerics/sensitive.hpp"
+#include "lode/plasticity/hill_frame.hpp"
 #include "lode/plasticity/hill_plastic_description.hpp"
 #include "lode/plasticity/hill_return.hpp"
 #include "lode/plasticity/plastic_strain.hpp"
@@ -41,8 +41,7 @@ class Kernel {
           hill_return(hardening, c.style, c.hill.reference),
           modes_3d(c.elastic, c.hill),
           modes_plane_strain(c.elastic, c.hill),
-          modes_plane_stress(c.elastic, c.hill),
-          axes_are_host(c.axes.r.m == Matrix3<double>::identity().m) {}
+          modes_plane_stress(c.elastic, c.hill) {}
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
@@ -50,8 +49,8 @@ class Kernel {
         if (kind != AnalysisKind::solid && c.tilted) [[unlikely]]
             return point.refuse(Mask<Real>(true), "the material axes of a 2D element may turn by ANGZ only: ANGY, ANGX",
                                 Real(c.tilt), "0");
-        Frame<kind, Real> frame;
-        if (c.has_axes) frame = material_frame(increment, state);
+        MaterialFrame<kind, Real> frame;
+        if (c.has_axes) frame = MaterialFrame<kind, Real>::at_end(increment, state, hill_plastic::Q, c.axes);
 
         Course<kind, Real> course;
         const Strain<kind, Real> total = frame.to_material(increment.strain_increment);
@@ -97,7 +96,10 @@ class Kernel {
             frame.turn(tangent);
         }
 
-        if (c.has_axes) frame.store(state);
+        if (c.has_axes) {
+            for (int i = ThermalBlock::TAD; i <= ThermalBlock::ENTR; ++i) state.keep(i);
+            frame.store(state, hill_plastic::Q);
+        }
         c.thermal.store(increment, state, course.work, heat, volume_heat);
         if (keeps_plastic_strain(point)) {
             store_plastic_strain(increment, point, frame.to_host(plastic_strain(course)));
@@ -115,7 +117,7 @@ class Kernel {
     void set_initial_stiffness(Tangent<kind>& tangent) const {
         VoigtMatrix<kind, double> stiffness;
         modes<kind>().set_stiffness(stiffness);
-        if (c.has_axes && !axes_are_host) stiffness = rotate_stiffness<kind>(stiffness, c.axes.r);
+        if (c.has_axes) stiffness = rotate_stiffness<kind>(stiffness, c.axes.r);
         std::copy(stiffness.m.begin(), stiffness.m.end(), tangent.stiffness);
     }
 
@@ -125,7 +127,6 @@ class Kernel {
     HillModes<AnalysisKind::solid> modes_3d;
     HillModes<AnalysisKind::plane_strain> modes_plane_strain;
     HillModes<AnalysisKind::plane_stress> modes_plane_stress;
-    bool axes_are_host;
 
     template <AnalysisKind kind>
     LODE_INLINE const HillModes<kind>& modes() const {
@@ -148,79 +149,6 @@ class Kernel {
         // Of a tangent: how heat by the constants' rule and the thickness answer to the strain.
         Vector<double, components(kind)> heat_by_strain{}, thickness_by_strain{};
     };
-
-    // Host axes and material axes.
-    template <AnalysisKind kind, class Real>
-    struct Frame {
-        bool turned = false;  // the axes are not those of the host
-        bool advanced = false;
-        Matrix3<Real> R, Q;
-
-        template <class V>
-        LODE_INLINE V to_material(const V& x) const {
-            return turned ? rotate(x, transpose(R)) : x;
-        }
-        template <class V>
-        LODE_INLINE V to_host(const V& x) const {
-            return turned ? rotate(x, R) : x;
-        }
-        // D_host = T^T D T of eps_material = T eps_host, and the vectors with it.
-        LODE_INLINE void turn(Tangent<kind>& tangent) const {
-            if constexpr (std::is_same_v<Real, double>) {
-                if (!turned) return;
-                constexpr int n = components(kind);
-                VoigtMatrix<kind, double> d;
-                std::copy_n(tangent.stiffness, n * n, d.m.begin());
-                d = rotate_stiffness<kind>(d, R);
-                std::copy_n(d.m.begin(), n * n, tangent.stiffness);
-                Stress<kind, double> by_temperature, heat;
-                for (int i = 0; i < n; ++i)
-                    by_temperature[i] = tangent.thermal_stress[i], heat[i] = tangent.heat_rate_strain[i];
-                by_temperature = rotate(by_temperature, R);
-                heat = rotate(heat, R);
-                for (int i = 0; i < n; ++i)
-                    tangent.thermal_stress[i] = by_temperature[i], tangent.heat_rate_strain[i] = heat[i];
-            }
-        }
-        LODE_INLINE void store(State<Real>& state) const {
-            for (int i = ThermalBlock::TAD; i <= ThermalBlock::ENTR; ++i) state.keep(i);
-            for (int i = 0; i < 9; ++i) {
-                if (advanced) state.set(hill_plastic::Q + i, Q.m[static_cast<std::size_t>(i)]);
-                else state.keep(hill_plastic::Q + i);
-            }
-        }
-    };
-
-    // R = Q R0, Q <- DROT Q; an explicit host turns its frame itself. Q stays as it is as long as nothing turns.
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE Frame<kind, Real> material_frame(const Increment<kind, Real>& increment,
-                                                 const State<Real>& state) const {
-        Frame<kind, Real> frame;
-        const auto own = [this] {
-            Matrix3<Real> r;
-            for (std::size_t i = 0; i < 9; ++i) r.m[i] = Real(c.axes.r.m[i]);
-            return r;
-        };
-        frame.turned = !axes_are_host;
-        if constexpr (!is_batch<Real>) {
-            bool is_zero = true, still = true;
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) {
-                    frame.Q(i, j) = state[hill_plastic::Q + 3 * i + j];
-                    is_zero = is_zero && frame.Q(i, j) == Real(0.0);
-                    still = still && increment.rotation_source[i + 3 * j] == (i == j ? 1.0 : 0.0);
-                }
-            if (!(is_zero && still)) {
-                const Matrix3<Real> before = is_zero ? Matrix3<Real>::identity() : frame.Q;
-                frame.Q = increment.rotation() * before;
-                frame.R = frame.Q * own();
-                frame.turned = frame.advanced = true;
-                return frame;
-            }
-        }
-        if (frame.turned) frame.R = own();
-        return frame;
-    }
 
     LODE_INLINE double thermal_stiffness(int i) const { return c.thermal_stiffness[static_cast<std::size_t>(i)]; }
 

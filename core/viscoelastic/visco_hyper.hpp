@@ -7,6 +7,7 @@
 #pragma once
 
 #include "lode/hyperelastic/mooney_rivlin.hpp"
+#include "lode/viscoelastic/isotropic_stiffness.hpp"
 #include "lode/viscoelastic/visco_hyper_description.hpp"
 
 namespace lode {
@@ -293,10 +294,7 @@ struct ViscoHyper {
 
     template <AnalysisKind kind>
     void initial_stiffness(const Stress<kind, double>&, const State<double>&, Tangent<kind>& tangent) const {
-        const double g = constants.G1 + constants.G2, lambda = constants.dilatation.modulus - (2.0 / 3.0) * g;
-        if constexpr (kind == AnalysisKind::plane_stress)
-            set_isotropic(tangent, lambda * 2.0 * g / (lambda + 2.0 * g), 2.0 * g);
-        else set_isotropic(tangent, lambda, 2.0 * g);
+        set_isotropic_stiffness(tangent, constants.G1 + constants.G2, constants.dilatation.modulus);
     }
 
     template <class F>

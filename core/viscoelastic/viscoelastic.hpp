@@ -4,13 +4,10 @@
 // The stress changes by the difference of two total stresses, so that an initial stress of the host survives.
 #pragma once
 
-#include <variant>
-
-#include "lode/elastic/isotropic_tangent.hpp"
-#include "lode/hyperelastic/dilatational_energy.hpp"
 #include "lode/hyperelastic/plane_stress.hpp"
-#include "lode/numerics/functions.hpp"
+#include "lode/viscoelastic/isotropic_stiffness.hpp"
 #include "lode/viscoelastic/piecewise_linear.hpp"
+#include "lode/viscoelastic/pressure_law.hpp"
 #include "lode/viscoelastic/viscoelastic_description.hpp"
 
 namespace lode {
@@ -23,8 +20,7 @@ struct Constants {
     PronySeries shear, bulk;
     double thermal_expansion, moisture_expansion;
     Recursion recursion;
-    int pressure_law;
-    DilatationalEnergy pressure;  // of PLAW > 0
+    PressureLaw pressure;
     ReducedTime time;
     PiecewiseLinear temperature_factor, moisture_factor;
 
@@ -135,34 +131,6 @@ class Update {
     struct Volume {
         Real j0, res0, j1, res1;
     };
-    // Js = J/Jres.
-    template <class Real>
-    LODE_INLINE VolumeRatio<Real> mechanical_ratio(const Real& j, const Real& res) const {
-        const Real inverse = 1.0 / (1.0 + res);
-        return c.pressure.volume_ratio((j - res) * inverse, (1.0 + j) * inverse);
-    }
-    // d(-P)/d ln J at b = 1.
-    template <class Real>
-    LODE_INLINE static Real tangent_modulus(const DilatationalEnergy& law, const VolumeRatio<Real>& Js) {
-        return law.stiffness(Js) - law.derivative(Js);
-    }
-
-    // sigma33/b of plane stress, or sigma22/b = sigma33/b of 1D, as a function of the lateral strain increment.
-    template <class Real>
-    struct LateralEquation {
-        DilatationalEnergy law;
-        Real deviatoric, deviatoric_slope;  // at zero lateral strain
-        Real trace, j0, inverse_res;        // in-plane part of tr DSTRAN; J - 1 before; 1/Jres
-        double lateral_components;
-
-        LODE_INLINE Residual<Real> operator()(const Real& lateral) const {
-            const Real grown = expm1(trace + lateral_components * lateral);
-            const Real j = j0 + (1.0 + j0) * grown;
-            const VolumeRatio<Real> Js = law.volume_ratio((1.0 + j) * inverse_res - 1.0, (1.0 + j) * inverse_res);
-            return {deviatoric + deviatoric_slope * lateral + law.derivative(Js),
-                    deviatoric_slope + lateral_components * tangent_modulus(law, Js)};
-        }
-    };
 
     template <AnalysisKind kind, class Real, class T, class X>
     LODE_INLINE void advance(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent,
@@ -171,7 +139,7 @@ class Update {
         constexpr bool has_lateral = kind == AnalysisKind::plane_stress || kind == AnalysisKind::uniaxial;
         constexpr bool can_turn = !is_batch<Real> && kind != AnalysisKind::uniaxial;
         const int elements = c.shear.count, bulk_elements = c.bulk.count;
-        const bool is_linear = is_plain || c.pressure_law == 0;
+        const bool is_linear = is_plain || c.pressure.is_linear();
         const bool trapezoidal = !is_plain && c.recursion == Recursion::trapezoidal;
 
         // Free strain; the vertical shift at both ends.
@@ -214,7 +182,7 @@ class Update {
         Volume<Real> volume{Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
         if (!is_linear) {
             volume.j0 = old[JM1], volume.res0 = old[JRESM1];
-            volume.res1 = volume.res0 + (1.0 + volume.res0) * expm1(3.0 * free_strain);
+            volume.res1 = grown(volume.res0, 3.0 * free_strain);
         }
         if constexpr (has_lateral) {
             Mask<Real> solved(true);
@@ -230,16 +198,16 @@ class Update {
         // -P/b before and after and its derivative by ln J, for PLAW > 0.
         Real pressure_old(0.0), pressure(0.0), pressure_slope(0.0), volume_energy(0.0);
         if (!is_linear) {
-            volume.j1 = volume.j0 + (1.0 + volume.j0) * expm1(stretching);
-            const VolumeRatio<Real> Js = mechanical_ratio(volume.j1, volume.res1);
-            pressure_old = c.pressure.derivative(mechanical_ratio(volume.j0, volume.res0));
-            pressure = c.pressure.derivative(Js);
-            pressure_slope = tangent_modulus(c.pressure, Js);
-            volume_energy = stored_in_volume(Js);
+            volume.j1 = grown(volume.j0, stretching);
+            const VolumeRatio<Real> Js = c.pressure.ratio(volume.j1, volume.res1);
+            pressure_old = c.pressure.tension(c.pressure.ratio(volume.j0, volume.res0));
+            pressure = c.pressure.tension(Js);
+            pressure_slope = c.pressure.modulus(Js);
+            volume_energy = c.pressure.stored(Js);
             const Mask<Real> sound = Js.J > Real(0.0) && is_finite(pressure + pressure_slope + volume_energy);
             if (!all(sound)) [[unlikely]]
                 return point.fail(!sound, "the volume ratio left the range of numbers");
-            if (c.pressure_law == 3) {
+            if (c.pressure.is_logarithmic()) {
                 const Mask<Real> stiff = Js.ln < Real(1.0);
                 if (!all(stiff)) [[unlikely]]
                     return point.fail(!stiff, "PLAW = 3 has no stiffness where J/Jres >= e", 0.5);
@@ -331,8 +299,12 @@ class Update {
             state.set(JRESM1, volume.res1);
         }
 
-        if constexpr (wants_tangent<T>)
-            set_tangent(tangent, b1 * G, b1 * (is_linear ? K : pressure_slope), c.thermal_expansion);
+        if constexpr (wants_tangent<T>) {
+            const double held_back = set_isotropic_stiffness(tangent, b1 * G, b1 * (is_linear ? K : pressure_slope));
+            if (c.thermal_expansion != 0.0)
+                for (int i = 0; i < normal_components(kind); ++i)
+                    tangent.thermal_stress[i] = -c.thermal_expansion * held_back;
+        }
     }
 
     // b at both ends; false where temperature or field 1 is not finite, and the point has failed.
@@ -387,7 +359,7 @@ class Update {
             if (trapezoidal) half = half + (Gk * step.shear.B[k]) * e0;
         }
         const X deviatoric_slope = (2.0 - (2.0 / 3.0) * lateral_components) * G;
-        if (is_plain || c.pressure_law == 0) {
+        if (is_plain || c.pressure.is_linear()) {
             const X K = c.K0 + step.bulk.driven;
             Real mean = c.K0 * V0 + K * (trace - 3.0 * free_strain);
             for (int k = 0; k < c.bulk.count; ++k) {
@@ -397,41 +369,13 @@ class Update {
             const X compliance = 1.0 / (deviatoric_slope + lateral_components * K);
             return -compliance * (2.0 * half + mean);
         }
-        const LateralEquation<Real> equation{
-            c.pressure,        2.0 * half, Real(deviatoric_slope), trace, volume.j0, 1.0 / (1.0 + volume.res1),
-            lateral_components};
+        const LateralStress<Real> equation{c.pressure, 2.0 * half,  Real(deviatoric_slope), trace,
+                                           volume.j0,  volume.res1, lateral_components};
         Real scale = abs(free_strain) + abs(eps[2]);
         for (int i = 0; i < normal_components(kind); ++i) scale = scale + (abs(d[i]) + abs(eps[i]));
         const auto root = solve_thickness(equation, Real(0.0), scale);
         solved = root.converged;
         return root.y;
-    }
-
-    // What -P stores on its way, int -P d ln J at b = 1: the companion of s : de.
-    template <class Real>
-    LODE_INLINE Real stored_in_volume(const VolumeRatio<Real>& Js) const {
-        if (c.pressure_law == 1) return 0.5 * c.K0 * (square(Js.j) * Js.inverse);
-        const Real excess = c.K0 * Js.excess_over_log();
-        return c.pressure_law == 2 ? excess : excess * Js.inverse;
-    }
-
-    // Isotropic with Geff and Keff, condensed where stresses vanish.
-    template <AnalysisKind kind>
-    LODE_INLINE static void set_tangent(Tangent<kind>& tangent, double G, double K, double thermal_expansion) {
-        const double lambda = K - (2.0 / 3.0) * G, shear = 2.0 * G;
-        double thermal = 3.0 * K;
-        if constexpr (kind == AnalysisKind::uniaxial) {
-            thermal = 9.0 * K * G / (3.0 * K + G);
-            tangent(0, 0) = thermal;
-        } else if constexpr (kind == AnalysisKind::plane_stress) {
-            const double coupling = lambda * shear / (lambda + shear);
-            set_isotropic(tangent, coupling, shear);
-            thermal = shear + 2.0 * coupling;
-        } else {
-            set_isotropic(tangent, lambda, shear);
-        }
-        if (thermal_expansion == 0.0) return;
-        for (int i = 0; i < normal_components(kind); ++i) tangent.thermal_stress[i] = -thermal_expansion * thermal;
     }
 };
 
@@ -454,18 +398,11 @@ struct Viscoelastic {
     template <AnalysisKind kind>
     void initial_stiffness(const Stress<kind, double>&, const State<double>& state, Tangent<kind>& tangent) const {
         const double b = constants.temperature_factor.largest() * constants.moisture_factor.largest();
-        const double G = constants.G0 + constants.shear.sum;
         double K = constants.K0 + constants.bulk.sum;
-        if (constants.pressure_law > 0) {
-            const double res = state[viscoelastic::JRESM1], j = (state[viscoelastic::JM1] - res) / (1.0 + res);
-            const VolumeRatio<double> Js = constants.pressure.volume_ratio(j, 1.0 + j);
-            K = constants.pressure.stiffness(Js) - constants.pressure.derivative(Js);
-        }
-        const double lambda = K - (2.0 / 3.0) * G;
-        if constexpr (kind == AnalysisKind::uniaxial) tangent(0, 0) = b * 9.0 * K * G / (3.0 * K + G);
-        else if constexpr (kind == AnalysisKind::plane_stress)
-            set_isotropic(tangent, b * lambda * 2.0 * G / (lambda + 2.0 * G), b * 2.0 * G);
-        else set_isotropic(tangent, b * lambda, b * 2.0 * G);
+        if (!constants.pressure.is_linear())
+            K = constants.pressure.modulus(
+                constants.pressure.ratio(state[viscoelastic::JM1], state[viscoelastic::JRESM1]));
+        set_isotropic_stiffness(tangent, b * (constants.G0 + constants.shear.sum), b * K);
     }
 
     // Calls f with the kernel that the options ask for.
@@ -502,13 +439,12 @@ struct Viscoelastic {
                     .thermal_expansion = p[options + ALPHA],
                     .moisture_expansion = p[options + BETA],
                     .recursion = static_cast<Recursion>(p.code(options + METH)),
-                    .pressure_law = p.code(options + PLAW),
-                    .pressure = {p.code(options + PLAW) - 1, p[K0]},
+                    .pressure = PressureLaw(p.code(options + PLAW), p[K0]),
                     .time = ReducedTime(p, options + SHIFTS),
                     .temperature_factor = PiecewiseLinear(p, temperatures, points),
                     .moisture_factor = PiecewiseLinear(p, p.code(options + NBC), points + 2 * temperatures)};
         if (!(c.G0 + c.shear.sum > 0.0)) p.refuse(G0, "> 0 where the sum of Gk is 0");
-        if (c.pressure_law > 0 && bulk_terms > 0) p.refuse(NK, "0 where PLAW > 0");
+        if (!c.pressure.is_linear() && bulk_terms > 0) p.refuse(NK, "0 where PLAW > 0");
         return c;
     }
 
@@ -518,7 +454,7 @@ struct Viscoelastic {
     static viscoelastic::Variant choose(const viscoelastic::Constants& c) {
         using viscoelastic::Variant;
         if (c.time.is_shifted()) return Variant::shifted;
-        const bool plain = c.pressure_law == 0 && c.recursion != Recursion::trapezoidal && !c.has_vertical_shift();
+        const bool plain = c.pressure.is_linear() && c.recursion != Recursion::trapezoidal && !c.has_vertical_shift();
         return plain ? Variant::plain : Variant::uniform;
     }
 };

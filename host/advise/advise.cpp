@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../guard.hpp"
 #include "../study/variants.hpp"
 #include "simpler.hpp"
 
@@ -36,6 +37,7 @@ class Adviser {
 
     Advice run() {
         const Pinned pinned;
+        const Muted muted;  // settings that the library refuses are among those tried
         find_reference();
         run_as_written();
         run_safest();

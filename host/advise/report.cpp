@@ -15,6 +15,9 @@ std::string increments_text(const Option& option) {
     return option.increments > 0 ? fmt::format("{} a step", option.increments) : "as in the deck";
 }
 
+// What follows a colon explains.
+std::string short_name(const std::string& algorithm) { return algorithm.substr(0, algorithm.find(':')); }
+
 std::string strain_text(const Option& option) {
     return option.strain == StrainMeasure::small ? "small strain" : "strain as in the deck";
 }
@@ -26,7 +29,7 @@ std::string cost_text(const Option& option) {
 
 std::string summary(const Option& option) {
     return fmt::format("{}{}{}, {}, {}, {}, increments {}", option.material, option.algorithm.empty() ? "" : ", ",
-                       option.algorithm, name_of(option.kind), option.interface_name(), strain_text(option),
+                       short_name(option.algorithm), name_of(option.kind), option.interface_name(), strain_text(option),
                        increments_text(option));
 }
 
@@ -34,7 +37,7 @@ std::vector<std::string> row(const Option& option) {
     return {option.sufficient ? "yes" : "no",
             option.origin,
             option.material,
-            option.algorithm.empty() ? "-" : option.algorithm.substr(0, option.algorithm.find(':')),
+            option.algorithm.empty() ? "-" : short_name(option.algorithm),
             std::string(name_of(option.kind)),
             option.interface_name(),
             increments_text(option),

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "../cards.hpp"
+#include "../guard.hpp"
 #include "../study/cost.hpp"
 #include "../study/libraries.hpp"
 #include "../study/material_point.hpp"
@@ -169,6 +170,7 @@ Status atlas(const AtlasOptions& options) {
                 const Subject subject{*model, *sample, kind, library};
                 meter.advance(subject.stem(map.name));
                 if (!wanted) continue;
+                const Muted muted;  // maps go where materials refuse
                 try {
                     for (const Sheet& sheet : map.make(subject, options.quiet)) {
                         const std::string failure = write_sheet(sheet, directory);

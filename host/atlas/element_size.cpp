@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../guard.hpp"
 #include "../plot/gnuplot.hpp"
 #include "../replay/driver.hpp"
 
@@ -44,6 +45,7 @@ bool accepts_element(const Scenario& scenario, const Library& library, double le
 }
 
 std::optional<LargestElement> largest_element(const Scenario& scenario, const Library& library) {
+    const Muted muted;
     if (!accepts_element(scenario, library, smallest) || accepts_element(scenario, library, largest_tried))
         return std::nullopt;
     LargestElement result;
@@ -114,7 +116,7 @@ Sheet element_size_sheet(const std::optional<LargestElement>& largest, const std
                                   most, runs.back().length, runs.front().length);
     if (sheet.plot == "plot") return sheet;
     sheet.setup = figure_setup(title, "displacement of the element", "stress 11") + data +
-                  "set key top right Left reverse title 'element length'\n";
+                  "set key outside right top Left reverse title 'element length'\n";
     return sheet;
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr int grid = 24;           // directions over a quarter turn
 constexpr int refinements = 40;    // of the best direction, by a shrinking pattern
-constexpr double positive = 1e-9;  // of the elastic determinant: perfect plasticity is marginal, not lost
+constexpr double marginal = 1e-9;  // of the elastic determinant: perfect plasticity is marginal, not lost
 
 Vector3d direction(double azimuth, double elevation) {
     return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)};
@@ -107,7 +107,7 @@ Ellipticity ellipticity_along(Scenario scenario, const Library& library) {
         const AcousticTensor tensor(layout, r.response->tangent, r.point.stress, jaumann);
         const EllipticityPoint point{r.point.total_time, least_determinant(tensor, elastic)};
         result.points.push_back(point);
-        if (!result.lost && !(point.least.ratio > positive)) result.lost = point;
+        if (!result.lost && !(point.least.ratio > -marginal)) result.lost = point;
     });
     if (outcome.status != Status::success) result.failure = outcome.message;
     return result;
@@ -133,7 +133,8 @@ Sheet ellipticity_sheet(const std::vector<std::pair<std::string, Ellipticity>>& 
             sheet.text += fmt::format("  {}: lost at time {:.4g}, normal ({:.4f}, {:.4f}, {:.4f})\n", name,
                                       result.lost->time, n[0], n[1], n[2]);
         } else {
-            sheet.text += fmt::format("  {}: kept, least determinant {:.3g} of the elastic one\n", name, least);
+            sheet.text += fmt::format("  {}: {}, least determinant {:.3g} of the elastic one\n", name,
+                                      least > marginal ? "kept" : "at its limit", least);
         }
         if (!result.failure.empty()) sheet.text += fmt::format("    ended early: {}\n", result.failure);
         if (result.points.empty()) continue;

@@ -37,7 +37,7 @@ struct EllipticityPoint {
 };
 struct Ellipticity {
     std::vector<EllipticityPoint> points;
-    std::optional<EllipticityPoint> lost;  // the first point where the ratio is not positive
+    std::optional<EllipticityPoint> lost;  // the first point where the ratio is negative
     std::string failure;                   // why the path ended early
 };
 // The scenario has not been resolved; UMAT is called.

@@ -105,8 +105,9 @@ ErrorMap error_map(const Scenario& scenario, const Library& library, const Error
                 wanted = target(reference, reference_start, dstrain);
             }
             if (answered && wanted) {
-                cell.error = stress_norm(point.layout(), response.stress - wanted->stress) / scale;
-                cell.reference_error = wanted->estimate / scale;
+                const double norm = axes.relative_to_end ? stress_norm(point.layout(), wanted->stress) : scale;
+                cell.error = stress_norm(point.layout(), response.stress - wanted->stress) / norm;
+                cell.reference_error = wanted->estimate / norm;
                 map.largest = std::max(map.largest, cell.error);
                 sum += cell.error;
                 ++done;
@@ -151,6 +152,7 @@ set palette defined (0 '#f7fbff', 0.25 '#c6dbef', 0.5 '#6baed6', 0.75 '#2171b5',
 set cblabel 'error (% of the stress at the limit)'
 set size ratio -1
 set key off
+set autoscale xyfix
 )";
     sheet.plot =
         "plot $grid using 1:2:3 with image pixels, $contours using 1:2 with lines lw 1 lc rgb '#303030', "

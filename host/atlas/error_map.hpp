@@ -16,7 +16,8 @@ namespace lode::host {
 struct ErrorMapAxes {
     Components start, along, across;
     std::vector<double> x, y;
-    double stress_scale = 0;  // errors are relative to it; 0: the norm of the stress that `start` has brought
+    double stress_scale = 0;       // errors are relative to it; 0: the norm of the stress that `start` has brought
+    bool relative_to_end = false;  // errors are relative to the exact stress after the increment instead
 };
 
 struct ErrorMapCell {

@@ -12,6 +12,7 @@ constexpr double relative_amplitude = 1e-6;  // of the strain scale
 constexpr double growth = 1000;              // an amplitude that has grown so much has no bound
 constexpr int oscillations = 2000;
 constexpr double resolution = 1e-5;
+constexpr int rate_corrections = 2;
 
 // Strain of a unit acceleration: two masses density * length / 2, a unit area, apart by u: u'' = -4 stress / (density
 // length) with the strain u / length, or the separation u.
@@ -43,11 +44,17 @@ double limit_by_bisection(MaterialPoint& point, int component, double density, d
 }
 
 // Slope of the stress over the strain of a component, by UMAT where there is one.
-double modulus(const Scenario& scenario, const Library& library, int component, double strain_scale) {
+double modulus(const Scenario& scenario, const Library& library, int component, double strain_scale, double dtime) {
     Scenario scene = scenario;
     if (library.umat() != nullptr) {
         scene.analysis.entry = Entry::umat;
-        return MaterialPoint(scene, library).tangent()(component, component);
+        MaterialPoint point(scene, library);
+        const Response still = point.respond(Components::Zero(point.layout().size()), dtime);
+        const double slope = still.tangent(component, component);
+        // d sigma = DDSDDE d eps - sigma tr(d eps) where DDSDDE is the Jaumann rate of Kirchhoff stress over J.
+        const lode_model* model = library.model_of(scene.material.name);
+        const bool finite = model != nullptr && (model->traits & LODE_FINITE_STRAIN) != 0;
+        return finite && component < point.layout().ndi() ? slope - still.stress[component] : slope;
     }
     MaterialPoint point(scene, library);
     const double width = relative_amplitude * strain_scale;
@@ -90,8 +97,12 @@ std::vector<TimeStepLimit> time_step_limits(const Scenario& scenario, const Libr
         TimeStepLimit limit;
         limit.component = layout.name(i);
 
-        const double stiffness = modulus(scene, library, i, strain_scale);
+        // The stiffness of a material with viscosity depends on the step.
+        double stiffness = modulus(scene, library, i, strain_scale, 1);
         if (!(stiffness > 0)) continue;
+        for (int k = 0; k < rate_corrections; ++k)
+            stiffness =
+                modulus(scene, library, i, strain_scale, std::sqrt(inertia(layout, density, length) / stiffness));
         limit.estimate = std::sqrt(inertia(layout, density, length) / stiffness);
         limit.found = limit_by_bisection(point, i, density, length, relative_amplitude * strain_scale, limit.estimate);
         limits.push_back(limit);
@@ -104,7 +115,7 @@ std::vector<TimeStepLimit> time_step_along(const Scenario& scenario, const Libra
     std::vector<TimeStepLimit> limits;
     Scenario scene = scenario;
     scene.analysis.entry = Entry::vumat;
-    const double stiffness = modulus(scene, library, 0, strain_scale);
+    const double stiffness = modulus(scene, library, 0, strain_scale, 1);
     for (int i = -points; i <= points && stiffness > 0; ++i) {
         MaterialPoint point(scene, library);
         TimeStepLimit limit;

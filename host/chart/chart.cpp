@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../guard.hpp"
 #include "../status.hpp"
 #include "../study/candidates.hpp"
 #include "../study/order.hpp"
@@ -97,6 +98,7 @@ int chart_runs(const Scenario& scenario, const Libraries& libraries, const Chart
 
 Chart make_chart(const Scenario& scenario, const Libraries& libraries, const ChartSettings& settings, Meter* meter) {
     const Pinned pinned;
+    const Muted muted;  // kinds and algorithms that the library refuses are among those tried
     Chart chart;
     chart.title = scenario.title.empty() ? scenario.material.name : scenario.title;
     chart.stem = scenario.stem;

@@ -82,7 +82,11 @@ set key outside right top vertical Left reverse samplen 2 spacing 1.2 width -2 f
 set pointsize 0.9
 )",
                                      single_quoted(chart.title));
+    // Colours tell algorithms apart, or kinds where there is one algorithm only.
     std::map<std::string, std::size_t> colours;
+    const bool one_algorithm = std::all_of(chart.series.begin(), chart.series.end(), [&](const Series& s) {
+        return s.algorithm == chart.series.front().algorithm;
+    });
     std::map<Kind, int> dashes;
     const bool with_kind = several_kinds(chart);
     std::string plot = "plot";
@@ -106,7 +110,9 @@ set pointsize 0.9
         const Series& s = chart.series[i];
         if (std::none_of(s.points.begin(), s.points.end(), [](const ChartPoint& p) { return p.usable(); })) continue;
         script += data_block(i, s);
-        const std::size_t colour = colours.try_emplace(s.algorithm, colours.size()).first->second;
+        const std::size_t colour =
+            colours.try_emplace(one_algorithm ? std::string(name_of(s.kind)) : s.algorithm, colours.size())
+                .first->second;
         const int dash = dashes.try_emplace(s.kind, static_cast<int>(dashes.size()) + 1).first->second;
         const int mark = s.entry == Entry::umat ? 7 : s.precision == Precision::single ? 4 : 9;
         add(fmt::format("$s{} using 1:2 with linespoints lw 1.4 dt {} pt {} lc rgb '{}' title {}", i, dash, mark,
@@ -127,8 +133,9 @@ std::string text(const Chart& chart) {
         double per_call = 0;
         for (const ChartPoint& p : s.points)
             if (p.usable()) per_call = p.cost.per_call;
-        rows.push_back({s.algorithm + (s.own_law ? " (own law)" : ""), std::string(name_of(s.kind)), s.interface_name(),
-                        order_text(s), per_call > 0 ? fmt::format("{:.1f}", per_call) : "-"});
+        rows.push_back({s.algorithm.substr(0, s.algorithm.find(':')) + (s.own_law ? " (own law)" : ""),
+                        std::string(name_of(s.kind)), s.interface_name(), order_text(s),
+                        per_call > 0 ? fmt::format("{:.1f}", per_call) : "-"});
     }
     result += aligned(rows, "  ");
     std::vector<std::vector<std::string>> best{{"Pareto front", "increments", "error", "cost (ns)", "quartiles"}};

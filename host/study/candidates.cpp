@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../guard.hpp"
 #include "../status.hpp"
 #include "variants.hpp"
 
@@ -59,6 +60,7 @@ std::vector<Candidate> candidates_for(const Scenario& scenario, const Library& l
     const int multiple_of = common_multiple(increments);
     std::vector<Candidate> candidates;
     for (const lode_algorithm* algorithm : algorithms_of(scenario, library)) {
+        const Muted muted;  // an algorithm that does not go with the constants refuses
         Candidate candidate;
         candidate.algorithm = algorithm;
         candidate.scenario = with(scenario, library, algorithm);

@@ -74,7 +74,7 @@ bool MaterialPoint::advance_in(int increments, const Components& dstrain, double
     return true;
 }
 
-Tangent MaterialPoint::tangent() { return respond(Components::Zero(layout_.size())).tangent; }
+Tangent MaterialPoint::tangent(double dtime) { return respond(Components::Zero(layout_.size()), dtime).tangent; }
 
 double MaterialPoint::nanoseconds(const Components& dstrain, int calls) {
     const CallCount before = material_->calls();

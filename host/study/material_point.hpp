@@ -28,7 +28,7 @@ class MaterialPoint {
     bool advance_in(int increments, const Components& dstrain, double dtime = 1);
 
     // The tangent of a zero increment. Needs UMAT.
-    Tangent tangent();
+    Tangent tangent(double dtime = 1);
     // Mean time of a call, from so many.
     double nanoseconds(const Components& dstrain, int calls);
 

@@ -13,6 +13,8 @@
 namespace lode::host {
 namespace {
 
+constexpr double room_temperature = 300;  // absolute, for equations of state
+
 // Corners in units of the sample's strain scale.
 struct Definition {
     const char* name;
@@ -103,6 +105,7 @@ Scenario sample_scenario(const lode_model& model, const lode_sample& sample, Kin
     scenario.material.name = material_name(model, sample);
     scenario.material.constants.assign(sample.constants, sample.constants + sample.constant_count);
     scenario.analysis.kind = kind;
+    if ((model.traits & LODE_EQUATION_OF_STATE) != 0) scenario.analysis.temperature = room_temperature;
     // The deformation gradient is there for models that can use it.
     if (!is_cohesive(kind)) scenario.analysis.large_rotation = true;
     scenario.stem = fmt::format("{}_{}", scenario.material.name, name_of(kind));

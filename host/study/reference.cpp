@@ -81,6 +81,7 @@ Reference make_reference(const Scenario& scenario, const Library& library, doubl
         reference.estimate = between;
         reference.how = fmt::format("extrapolated from {} and {} increments a step with order {:.3g}", 2 * n, 4 * n, p);
     } else {
+        reference.smooth = false;
         reference.trace = at_times_of(finest, once);
         reference.estimate = std::max(left, 0.0);
         reference.how = fmt::format("{} increments a step; too rough to extrapolate", 4 * n);

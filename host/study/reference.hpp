@@ -16,6 +16,7 @@ struct Reference {
         0;            // of the coarsest of its runs, in a step: what has a divisor of this number compares everywhere
     std::string how;  // in words
     bool compare_strain = false;
+    bool smooth = true;  // false: the solution is too rough to extrapolate, and errors show no order
     bool valid() const { return trace.complete() && !trace.points.empty(); }
 
     Difference error_of(const Trace& other) const { return difference(other, trace, compare_strain); }

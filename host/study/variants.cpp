@@ -82,6 +82,7 @@ Scenario with_algorithm(Scenario scenario, const lode_model& model, const lode_a
     const int number = property_index(model, algorithm.parameter, constants.data(), count);
     if (number == 0) return scenario;
     const auto places = property_places(model, constants.data(), count);
+    if (number > count && model.parameters[algorithm.parameter - 1].default_value == algorithm.value) return scenario;
     while (constants.size() < static_cast<std::size_t>(number))
         constants.push_back(places[constants.size()].parameter->default_value);
     constants[static_cast<std::size_t>(number - 1)] = algorithm.value;

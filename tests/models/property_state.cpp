@@ -229,10 +229,9 @@ class Energy : public testing::TestWithParam<Case> {
     static double order(const Case& c) {
         for (int i = 0; i < c.model->algorithm_count; ++i) {
             const lode_algorithm& a = c.model->algorithms[i];
-            const int index =
-                property_index(*c.model, a.parameter, c.sample->constants, c.sample->constant_count);
-            const bool chosen = index > 0 && index <= c.sample->constant_count &&
-                                c.sample->constants[index - 1] == a.value;
+            const int index = property_index(*c.model, a.parameter, c.sample->constants, c.sample->constant_count);
+            const bool chosen =
+                index > 0 && index <= c.sample->constant_count && c.sample->constants[index - 1] == a.value;
             if (chosen) return std::min(2.0, a.order);
         }
         return c.model->algorithm_count > 0 ? std::min(2.0, c.model->algorithms[0].order) : 1.0;

@@ -12,7 +12,8 @@ namespace lode::test {
 namespace {
 
 Matrix3d stretch_of(const Matrix3d& f) {
-    return Eigen::SelfAdjointEigenSolver<Matrix3d>(f.transpose() * f).operatorSqrt();
+    const Matrix3d u = Eigen::SelfAdjointEigenSolver<Matrix3d>(f.transpose() * f).operatorSqrt();
+    return 0.5 * (u + u.transpose());  // exactly symmetric: a VUMAT is given one half of it
 }
 
 // A material point somewhere on its path, and the increment that comes next, without rotation.
@@ -98,7 +99,8 @@ TEST_P(Vumat, AgreesWithUmat) {
         for (std::size_t k = 0; k < umat.state.size(); ++k) {
             const double size = std::max(std::abs(umat.state[k]), strain * std::max(1.0, largest(umat.stress)));
             const double conditioning = std::abs(neighbour.state[k] - umat.state[k]);
-            EXPECT_NEAR(vumat.state[k], umat.state[k], 64.0 * epsilon * size + conditioning) << "STATEV(" << k + 1 << ")";
+            EXPECT_NEAR(vumat.state[k], umat.state[k], 64.0 * epsilon * size + conditioning)
+                << "STATEV(" << k + 1 << ")";
         }
         // Trapezoid rule, or the stored energy itself where there is one.
         double stored = 2.0 * 0.5;

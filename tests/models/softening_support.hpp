@@ -16,7 +16,22 @@
 namespace lode::test::softening {
 
 enum Entry {
-    STATE = 1, AXIS_N, AXIS_T = 5, DELTA = 8, D = 11, EC = 14, W = 17, H = 20, MODE, W_F, EZZ, REL_S, REL_G, STATUS, A1, A2 = 30
+    STATE = 1,
+    AXIS_N,
+    AXIS_T = 5,
+    DELTA = 8,
+    D = 11,
+    EC = 14,
+    W = 17,
+    H = 20,
+    MODE,
+    W_F,
+    EZZ,
+    REL_S,
+    REL_G,
+    STATUS,
+    A1,
+    A2 = 30
 };
 constexpr double printed = 6e-12;  // twelve digits
 

@@ -564,6 +564,53 @@ TEST(ElasticDecohesive, ExpansionIsTakenOff) {
     EXPECT_EQ(a.ddsddt[3], 0.0);
 }
 
+// One crack, opened and sheared on a curved path with unloading: SSE + SPD is the work, to first order.
+TEST(ElasticDecohesive, EnergyBalance) {
+    for (const Numbers& props :
+         {with(T, {{N_C, 1}}), with(Weak, {{N_C, 1}, {SOFT, 1}}), with(T, {{N_C, 1}, {CRIT, 1}})})
+        for (const AnalysisKind kind : {solid, plane_strain, plane_stress}) {
+            const auto error = [&](int steps) {
+                UmatPoint point = concrete(kind, props);
+                const auto strain = [&](double t) {
+                    Numbers e(static_cast<std::size_t>(point.size()));
+                    e[0] = 6e-4 * std::sin(2.5 * t);
+                    e[1] = -1e-4 * t;
+                    e[static_cast<std::size_t>(point.normals())] = 4e-4 * (1 - std::cos(2 * t));
+                    return e;
+                };
+                double work = 0.0;
+                for (int i = 1; i <= steps; ++i) {
+                    Numbers e = strain(double(i) / steps);
+                    const Numbers before = strain(double(i - 1) / steps), stress = point.stress();
+                    for (std::size_t k = 0; k < e.size(); ++k) e[k] -= before[k];
+                    point.advance({.dstran = e});
+                    for (std::size_t k = 0; k < e.size(); ++k) work += 0.5 * (stress[k] + point.stress()[k]) * e[k];
+                }
+                EXPECT_EQ(point.state(J), 1.0);
+                EXPECT_EQ(point.spd(), point.state(W));
+                return std::abs(point.sse() + point.spd() - work) / work;
+            };
+            const double coarse = error(100), fine = error(1600);
+            EXPECT_LT(coarse, 0.02);
+            EXPECT_LE(fine, coarse / 8 + 1e-13);
+        }
+}
+
+// A crack that ALPHA_TH forbids is looked for, not found, and leaves no trace in the increment.
+TEST(ElasticDecohesive, ARefusedCrackChangesNothing) {
+    const auto run = [](const Numbers& props) {
+        UmatPoint point = concrete(plane_stress, props);
+        point.advance({.dstran = {1.5e-4, 0, 0}});
+        const Answer a = point.advance({.dstran = {5e-5, 8e-5, 6e-5}});
+        EXPECT_EQ(point.state(J), 1.0);
+        return a;
+    };
+    const Answer refused = run(with(T, {{N_C, 2}, {ALPHA_TH, 90}})), single = run(with(T, {{N_C, 1}}));
+    EXPECT_TRUE(identical(refused.stress, single.stress));
+    EXPECT_TRUE(identical(Numbers(refused.state.begin(), refused.state.begin() + 12), single.state));
+    EXPECT_EQ((refused.tangent - single.tangent).cwiseAbs().maxCoeff(), 0.0);
+}
+
 // --- 4.1: accuracy ------------------------------------------------------------------------------------------------
 
 // The error of one to 64 steps, with the normal by the search, against Richardson's limit of 4096.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "umat_point.hpp"
@@ -33,10 +32,11 @@ inline Matrix3d polar_rotation(const Matrix3d& f) {
     return Eigen::SelfAdjointEigenSolver<Matrix3d>(f * f.transpose()).operatorInverseSqrt() * f;
 }
 
-// Half way from one rotation to another.
-inline Matrix3d mean_rotation(const Matrix3d& from, const Matrix3d& to) {
-    const Eigen::AngleAxisd way(Matrix3d(from.transpose() * to));
-    return from * Eigen::AngleAxisd(0.5 * way.angle(), way.axis()).toRotationMatrix();
+// G: strainInc of an explicit host, in the frame that turns with R: the symmetric part of dU U^-1 in the middle.
+inline Numbers stretch_increment(const Matrix3d& f_old, const Matrix3d& f_new, AnalysisKind kind) {
+    const Matrix3d u_old = polar_rotation(f_old).transpose() * f_old, u_new = polar_rotation(f_new).transpose() * f_new;
+    const Matrix3d g = (u_new - u_old) * (0.5 * (u_old + u_new)).inverse();
+    return to_components(0.5 * (g + g.transpose()), kind, 2.0);
 }
 
 // Follows F = path(t), t = 0..1, in equal increments made by `increment`.
