@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
     CLI::App* const chart = app.add_subcommand("chart", "Chart accuracy against cost of a deck or of a material");
     chart->add_option("target", chart_options.targets, "Decks, or materials: KEYWORD or KEYWORD-LABEL");
     chart->add_flag("--all", chart_options.all, "Every material of the library");
+    chart->add_flag("--first", chart_options.first, "Only the first sample of each model");
     chart->add_option("-l,--library", chart_options.library,
                       "Shared object with umat_ or vumat_ (default: liblode.so)");
     chart->add_option("--single-library", chart_options.single_library,
@@ -56,7 +57,8 @@ int run(int argc, char** argv) {
     chart->add_option("-o,--output", chart_options.output_directory,
                       "Directory for the files (default: the current one)");
     chart->add_option("-p,--path", chart_options.path, "One of the built-in paths, e.g. corner (default: all)");
-    chart->add_option("-k,--kind", chart_options.kinds, "Kinds, e.g. 3d plane_stress (default: see docs/charts.md)");
+    chart->add_option("-k,--kind", chart_options.kinds,
+                      "Kinds, e.g. 3d plane_stress (default: of a deck all that fit, of a material the fullest)");
     chart
         ->add_option("-n,--increments", chart_options.increments,
                      "Increments a step, e.g. 1,4,16 (default: 1,2,4,...,128)")
@@ -83,6 +85,7 @@ int run(int argc, char** argv) {
     CLI::App* const atlas = app.add_subcommand("atlas", "Map where the methods of a material fail");
     atlas->add_option("material", atlas_options.targets, "KEYWORD or KEYWORD-LABEL");
     atlas->add_flag("--all", atlas_options.all, "Every material of the library");
+    atlas->add_flag("--first", atlas_options.first, "Only the first sample of each model");
     atlas->add_option("-m,--map", atlas_options.maps, "Maps to draw (default: all that make sense)")
         ->check(CLI::IsMember(lode::host::atlas_maps()));
     atlas->add_option("-l,--library", atlas_options.library,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lode/numerics/scalar.hpp"
+
 namespace lode {
 
 template <class State>
@@ -48,22 +50,24 @@ struct SubsteppedState {
 // s <- s + h (k1 + k2)/2, err = error(h (k2 - k1)/2, new state). A substep is accepted if err <= tolerance; the next is
 // min(0.9 sqrt(tolerance/err), 2) times as long, after a rejection not longer, and never less than a tenth.
 // `accept(state)` is called after every accepted substep, e.g. to pull the state back to a yield surface. State and
-// rate need +, - and multiplication by a double from the left. Source: Sloan (1987); page 20, section 6.
+// rate need +, - and multiplication from the left by a number of the kind that `error` returns. Source: Sloan (1987);
+// page 20, section 6.
 template <class State, class Rate, class Error, class Accept>
 inline SubsteppedState<State> modified_euler(const State& start, const Rate& rate, const Error& error,
                                              const Accept& accept, const SubstepControl& control = {}) {
     SubsteppedState<State> s{start, 0, 0, false};
-    double time = 0.0, h = std::min(1.0, control.first), growth = 2.0;
+    using Number = decltype(error(0.5 * (rate(start) - rate(start)), start));
+    Number time(0.0), h(std::min(1.0, control.first)), growth(2.0);
     for (int substep = 0; substep < control.max_substeps; ++substep) {
-        const bool last = h >= 1.0 - time;
+        const bool last = h >= Number(1.0 - time);
         if (last) h = 1.0 - time;
         const auto k1 = rate(s.state);
         const State predictor = s.state + h * k1;
         const auto k2 = rate(predictor);
         const State next = s.state + (0.5 * h) * (k1 + k2);
-        const double err = error((0.5 * h) * (k2 - k1), next);
-        const double factor = err > 0.0 ? 0.9 * std::sqrt(control.tolerance / err) : 2.0;
-        if (err <= control.tolerance) {
+        const Number err = error((0.5 * h) * (k2 - k1), next);
+        const Number factor = err > Number(0.0) ? Number(0.9 * sqrt(control.tolerance / err)) : Number(2.0);
+        if (err <= Number(control.tolerance)) {
             s.state = next;
             accept(s.state);
             ++s.accepted;
@@ -71,14 +75,14 @@ inline SubsteppedState<State> modified_euler(const State& start, const Rate& rat
                 s.completed = true;
                 return s;
             }
-            time += h;
-            h *= std::min(factor, growth);
-            growth = 2.0;
+            time = time + h;
+            h = h * min(factor, growth);
+            growth = Number(2.0);
         } else {
             ++s.rejected;
-            if (h <= control.smallest) return s;
-            h = std::max(h * (factor > 0.1 ? std::min(factor, 1.0) : 0.1), control.smallest);
-            growth = 1.0;
+            if (h <= Number(control.smallest)) return s;
+            h = max(h * max(min(factor, Number(1.0)), Number(0.1)), Number(control.smallest));
+            growth = Number(1.0);
         }
     }
     return s;

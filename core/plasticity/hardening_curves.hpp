@@ -113,16 +113,16 @@ struct NonlinearHardening {
 // k = Y (1 + b x^n), eq. 2.72. With b < 0 only under a Floored.
 struct PowerHardening {
     static constexpr bool softens = false;
-    double yield, factor, exponent;  // factor: Y b
+    static constexpr double smallest = 1e-90;  // below which the slope is not followed
+    double yield, factor, exponent;            // factor: Y b
 
     double initial_yield() const { return yield; }
     template <class Real>
     LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
         // The slope at 0 is infinite for n < 1: a large number stands for it.
-        const Real base = max(x, Real(1e-30)), per_base = 1.0 / base;
-        const Real rise = factor * quick_pow(base, exponent);
-        const Real slope = exponent * rise * per_base;
-        return {yield + select(x < Real(1e-30), Real(0.0), rise), slope, (exponent - 1.0) * slope * per_base};
+        const Real rise = factor * quick_pow(x, exponent), per_base = 1.0 / max(x, Real(smallest));
+        const Real slope = exponent * per_base * select(x < Real(smallest), Real(factor * 1e-15), rise);
+        return {yield + rise, slope, (exponent - 1.0) * slope * per_base};
     }
     template <class Real>
     LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const FlowStress<Real>& k,

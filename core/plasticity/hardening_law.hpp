@@ -262,7 +262,8 @@ class ReturnToYield {
         if (!any(steep)) return result;
         const Real rise = select(steep, (q_trial - law_.yield) * (1.0 / law_.factor), Real(1.0));
         const Real plastic_limit = quick_pow(rise, 1.0 / law_.exponent) - alpha;
-        const Real lower = select(steep, excess / (stiffness_ + flow.slope), Real(1.0));
+        const auto virgin = alpha < Real(Law::smallest);
+        const Real lower = select(steep, select(virgin, Real(1e-290), excess / (stiffness_ + flow.slope)), Real(1.0));
         const Real start = max(min(upper, plastic_limit), lower);
         const auto root = solve_in_logarithm(residual(q_trial, alpha, Real(1.0)), lower, upper, start,
                                              return_tolerance * q_trial, steep);

@@ -253,7 +253,9 @@ class JohnsonCook {
                                                            Mask<Real> active) {
         // Molten: nothing is left to the yield stress.
         const Mask<Real> solid = active && at.thermal > Real(0.0);
-        const Real lower = select(solid, (q_trial - k.value) / (stiffness + k.slope), upper);
+        const Mask<Real> virgin = alpha < Real(PowerHardening::smallest);
+        const Real lower =
+            select(solid && !virgin, (q_trial - k.value) / (stiffness + k.slope), min(upper, Real(1e-290)));
         const Real factor = select(solid, self.slow_ratio_ * at.thermal, Real(1.0));
         Real start = upper;
         if (self.rise_ > 0.0) {

@@ -126,10 +126,10 @@ inline constexpr double impact[] = {200000.0, 0.29, 792.0, 3,      510.0, 0.26, 
                                     0.0,      0.0,  0.0,   1.2e-5, 0,     0.0,  273.15, 3.6, 0.0,  1};
 inline constexpr double nonlinear[] = {200000.0, 0.3, 400.0, 2, 20.0, 0.4};
 inline constexpr double power[] = {200000.0, 0.3, 400.0, 6, 3.0, 0.35};
-inline constexpr double tungsten[] = {410000.0, 0.28, 2200.0, 4,      7.7, 0.13, 4000.0, 1e-5, -2.2e-4, 0.0, 0.0,
-                                      0.0,      0.0,  0.0,    4.5e-6, 0,   27.0, 273.15, 2.6,  0.9,     1};
-inline constexpr double tantalum[] = {184920.0, 0.34,  375.0, 5,      1.0, 0.1,  1000.0, 1e-5, -2e-4, 1000.0, 3597.4,
-                                      710000.0, 0.012, 0.0,   6.3e-6, 0,   27.0, 273.15, 2.3,  0.0,   1};
+inline constexpr double tungsten[] = {410000.0, 0.28, 2200.0, 4,      7.7, 0.13, 4000.0, 0.0, -2.2e-4, 0.0, 0.0,
+                                      0.0,      0.0,  0.0,    4.5e-6, 0,   0.0,  273.15, 2.6, 0.9,     1};
+inline constexpr double tantalum[] = {184920.0, 0.34,  375.0, 5,      1.0, 0.1, 1000.0, 0.0, -2e-4, 1000.0, 3597.4,
+                                      710000.0, 0.012, 0.0,   6.3e-6, 0,   0.0, 273.15, 2.3, 0.0,   1};
 inline constexpr double copper[] = {128000.0, 0.34, 10.0, 7,      1e7,  1e8,   2.56e-7, 1e6, 0.25,    3.06,   0.25,
                                     0.06,     3.2,  50.0, 1.7e-5, 0.0,  0.0,   273.15,  3.4, 0.0,     1,      0,
                                     0,        0.0,  10.0, 10.0,   0.12, 0.006, 5.8,     1,   30000.0, 14900.0};
@@ -155,16 +155,16 @@ inline constexpr lode_sample samples[] = {
     {"NONLINEAR", "hardening with a power of 1 + b alpha, MPa", sample::nonlinear, count_of(sample::nonlinear), 6e-3,
      continuum_kinds},
     {"POWER", "hardening with a power of alpha, MPa", sample::power, count_of(sample::power), 6e-3, continuum_kinds},
-    {"TUNGSTEN", "Steinberg-Cochran-Guinan, MPa, degrees Celsius", sample::tungsten, count_of(sample::tungsten), 2e-2,
-     continuum_kinds},
-    {"TANTALUM", "Steinberg-Lund, MPa, s, degrees Celsius", sample::tantalum, count_of(sample::tantalum), 1e-2,
-     continuum_kinds},
+    {"TUNGSTEN", "Steinberg-Cochran-Guinan without pressure hardening (GP = 1e-5), MPa, degrees Celsius",
+     sample::tungsten, count_of(sample::tungsten), 2e-2, continuum_kinds},
+    {"TANTALUM", "Steinberg-Lund without pressure hardening (GP = 1e-5), MPa, s, degrees Celsius", sample::tantalum,
+     count_of(sample::tantalum), 1e-2, continuum_kinds},
     {"COPPER", "dislocation densities, N, mm, s, degrees Celsius", sample::copper, count_of(sample::copper), 4e-3,
      continuum_kinds},
     {"EXACT", "linear hardening, exact for a constant strain rate, MPa", sample::exact, count_of(sample::exact), 6e-3,
      LODE_SOLID | LODE_PLANE_STRAIN},
     {"SUBSTEPS", "saturating hardening in four substeps, with heat, MPa, degrees Celsius", sample::substeps,
-     count_of(sample::substeps), 6e-3, continuum_kinds},
+     count_of(sample::substeps), 6e-3, LODE_SOLID | LODE_PLANE_STRAIN | LODE_UNIAXIAL},
     {"CONTROLLED", "perfectly plastic, error-controlled explicit substeps, MPa", sample::controlled,
      count_of(sample::controlled), 6e-3, LODE_SOLID | LODE_PLANE_STRAIN},
 };

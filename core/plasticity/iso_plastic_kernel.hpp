@@ -145,6 +145,9 @@ class Kernel {
         if constexpr (kind == AnalysisKind::plane_stress)
             if (c.thermal_expansion != 0.0 || c.moisture_expansion != 0.0)
                 point.thickness_strain_increment = point.thickness_strain_increment + free_strain(increment, state);
+        if constexpr (Law::remembers)
+            if (memory_of_law() != nullptr)
+                for (int i = TAD; i < RC; ++i) state.keep(i);
         c.thermal.store(increment, state, balance.work, heat, thermoelastic);
         if (step.keeps_plastic_strain) add_plastic_strain(increment, point, step.plastic_strain);
         const Real alpha = state[EQPS] + dalpha;
@@ -289,10 +292,12 @@ class Kernel {
         const ReturnResult<Real> r = law.template solve<line>(step.at, q_trial, step.alpha, step.start, solid);
         set_return(step, r, solid);
     }
+    // A return of nothing is elastic: flow can be too slow to be a number.
     template <AnalysisKind kind, class Real>
     LODE_INLINE static void set_return(Step<kind, Real, Law>& step, const ReturnResult<Real>& r,
                                        const Mask<Real>& solid) {
         step.dalpha = select(solid, r.dalpha, Real(0.0));
+        if constexpr (Law::feels_rate) step.yields = step.yields && (!solid || step.dalpha > Real(0.0));
         step.end.value = select(solid, r.flow.value, step.end.value);
         step.end.slope = select(solid, r.flow.slope, step.end.slope);
     }
@@ -467,6 +472,7 @@ class Kernel {
             const auto root =
                 solve_bracketed<Slope::decreasing>(in_logarithm, lowest, Real(0.0), first, tolerance, flows);
             set_return(step, {root.last.dalpha, root.last.flow}, flows);
+            step.yields = step.yields && (flows || !solid);
             return select(flows, 1.0 - quick_exp(root.x), Real(1.0));
         } else {
             const auto of_t = [residual](const Real& x) { return residual(1.0 - x); };

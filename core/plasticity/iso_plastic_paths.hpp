@@ -117,7 +117,6 @@ class ConstantRatePath {
         const Real along = double_contraction(c.s, dh);
         const S w = c.s - along * dh;
         const Real across = norm(w);
-        if (across < 1e-7 * R) return backward_euler({c.s + d, c.alpha});
         if (k.slope == Real(0.0) && k.curvature == Real(0.0)) {
             const Real C = along / R, e = quick_exp(Real(0.0) - a / R), e2 = e * e;
             const Real den = (1.0 + C) + e2 * (1.0 - C), rho = 2.0 * e / den;
@@ -125,19 +124,25 @@ class ConstantRatePath {
             // R (turned dh + rho s_c/R), gamma = (R/2G)(-ln rho)
             return {R * turned * dh + rho * c.s, c.alpha - root23 * (R / (2.0 * G_)) * quick_log(rho)};
         }
-        // t = a'/R from 0 to a/R: dV/dt = sqrt(3/2) R cos(psi), du/dt = -R/R(alpha(V)), V = 3G alpha + k.
-        const Real u0 = along > Real(0.0) ? quick_log(across / (R + along)) : quick_log((R - along) / across);
+        // t = a'/R from 0 to a/R: dV/dt = sqrt(3/2) R cos(psi), du/dt = -R/R(alpha(V)), V = 3G alpha + k. On a radial
+        // path, where tan(psi/2) vanishes, u is counted from 0: what is across shrinks by exp(u). (Backward Euler has
+        // the stress, but not the tangent.)
+        const bool is_radial = across < 1e-7 * R;
+        Real u0(0.0);
+        if (!is_radial) u0 = quick_log(along > Real(0.0) ? across / (R + along) : (R - along) / across);
         const Pair start{3.0 * G_ * c.alpha + k.value, u0};
         const auto rate = [&](const Pair& y) {
             const Real K = strength_of(y.V, c.alpha, k);
-            return Pair{(1.5 * root23) * R * cosine(y.u), Real(0.0) - k.value / K};
+            return Pair{(1.5 * root23) * R * (is_radial ? Real(1.0) : cosine(y.u)), Real(0.0) - k.value / K};
         };
         Pair end{start};
         if (!extrapolate(rate, a / R, k.value, end)) return backward_euler({c.s + d, c.alpha});
         const Real K = strength_of(end.V, c.alpha, k);
+        const Real alpha = (end.V - K) / (3.0 * G_);
+        if (is_radial) return {root23 * K * dh + (K / k.value) * quick_exp(end.u) * w, alpha};
         const Real R1 = root23 * K, cosine1 = cosine(end.u), tail = quick_exp(Real(0.0) - abs(end.u));
         const Real sine1 = 2.0 * tail / (1.0 + tail * tail);
-        return {R1 * cosine1 * dh + (R1 * sine1 / across) * w, (end.V - K) / (3.0 * G_)};
+        return {R1 * cosine1 * dh + (R1 * sine1 / across) * w, alpha};
     }
     struct Pair {
         Real V, u;
@@ -210,7 +215,7 @@ class ConstantRatePath {
         Real alpha;
         friend Flow operator+(const Flow& a, const Flow& b) { return {a.s + b.s, a.alpha + b.alpha}; }
         friend Flow operator-(const Flow& a, const Flow& b) { return {a.s - b.s, a.alpha - b.alpha}; }
-        friend Flow operator*(double f, const Flow& a) { return {Real(f) * a.s, f * a.alpha}; }
+        friend Flow operator*(const Real& f, const Flow& a) { return {f * a.s, f * a.alpha}; }
     };
     Flow rate_of(const Flow& at, const S& d) const {
         const Real size = norm(at.s), slope = law_.start(at_, at.alpha).slope;
@@ -224,7 +229,7 @@ class ConstantRatePath {
     }
     State modified(const State& c, const S& d, double tolerance) const {
         const auto rate = [&](const Flow& at) { return rate_of(at, d); };
-        const auto error = [](const Flow& e, const Flow& at) { return value_of(norm(e.s)) / value_of(norm(at.s)); };
+        const auto error = [](const Flow& e, const Flow& at) { return norm(e.s) / norm(at.s); };
         const auto accept = [this](Flow& at) { pull_back(at); };
         const SubstepControl control{.tolerance = tolerance, .first = 1.0, .smallest = 1e-9, .max_substeps = 100000};
         const auto end = modified_euler(Flow{c.s, c.alpha}, rate, error, accept, control);
@@ -234,7 +239,7 @@ class ConstantRatePath {
     State forward(const State& c, const S& d, int substeps) const {
         Flow at{c.s, c.alpha};
         for (int i = 0; i < substeps; ++i) {
-            at = at + (1.0 / substeps) * rate_of(at, d);
+            at = at + Real(1.0 / substeps) * rate_of(at, d);
             pull_back(at);
         }
         return {at.s, at.alpha};

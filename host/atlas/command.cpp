@@ -149,6 +149,7 @@ Status atlas(const AtlasOptions& options) {
     if (options.all) samples = all_samples(library);
     for (const auto& target : options.targets)
         for (const auto& sample : samples_named(library, target)) samples.push_back(sample);
+    if (options.first) std::erase_if(samples, [](const auto& s) { return s.second != &s.first->samples[0]; });
     if (samples.empty()) throw Failure(Status::usage, "nothing to map: name materials, or say --all");
 
     const std::string directory = output_directory(options.output_directory);

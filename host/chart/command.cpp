@@ -40,6 +40,7 @@ std::vector<Kind> kinds_named(const std::vector<std::string>& names) {
 
 void add_sample(std::vector<Scenario>& scenes, const lode_model& model, const lode_sample& sample,
                 const ChartOptions& options) {
+    if (options.first && &sample != &model.samples[0]) return;
     const std::vector<Kind> served = kinds_of(model.kinds & sample.kinds);
     std::vector<Kind> kinds = kinds_named(options.kinds);
     if (kinds.empty() && !served.empty()) kinds = {served.front()};

@@ -12,6 +12,7 @@ namespace lode::host {
 struct ChartOptions {
     std::vector<std::string> targets;  // decks, KEYWORD or KEYWORD-LABEL
     bool all = false;                  // every material of the library
+    bool first = false;                // only the first sample of each model
     std::string library, single_library, output_directory = ".";
     std::string path;                // one of the built-in paths; empty: all
     std::vector<std::string> kinds;  // empty: of a deck all that its path allows, of a material the fullest

@@ -41,7 +41,9 @@ void expect_advice(const Advice& advice, const std::string& deck, double toleran
     ASSERT_TRUE(advice.best->cost && advice.safest && advice.safest->cost);
     EXPECT_LT(advice.best->cost->median, advice.safest->cost->median);
     for (const Option& option : advice.options)
-        if (option.sufficient && option.cost) EXPECT_GE(1.05 * option.cost->median, advice.best->cost->median);
+        if (option.sufficient && option.cost) {
+            EXPECT_GE(1.05 * option.cost->median, advice.best->cost->median);
+        }
     // What it says to paste runs as it is.
     EXPECT_NE(cards(*advice.best, library()).find("*USER MATERIAL"), std::string::npos);
 }

@@ -241,8 +241,9 @@ TEST(ElementSize, IsHeldByEveryMaterialThatHasALimit) {
             const auto runs = dissipation_over_size(scene, library(), sample->strain_scale, largest->length,
                                                     {1.0 / 16, 1.0 / 32, 1.0 / 64});
             for (const Dissipation& run : runs)
-                if (run.complete)
+                if (run.complete) {
                     EXPECT_NEAR(run.energy / runs.back().energy, 1, 0.05) << "element length " << run.length;
+                }
         }
     }
 }
@@ -282,8 +283,8 @@ TEST(Ellipticity, AcousticTensorOfLinearElasticity) {
     const double E = 1000, nu = 0.25, G = E / (2 * (1 + nu)), M = 2 * G * (1 - nu) / (1 - 2 * nu);
     MaterialPoint point(material("ISO_ELASTIC-X", {E, nu}), library());
     const AcousticTensor tensor(point.layout(), point.tangent(), Components::Zero(6), false);
-    for (const Eigen::Vector3d n :
-         {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0.6, 0.8, 0), Eigen::Vector3d(2, -1, 2) / 3.0})
+    for (const Eigen::Vector3d& n : std::vector<Eigen::Vector3d>{Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0.6, 0.8, 0),
+                                                                 Eigen::Vector3d(2, -1, 2) / 3.0})
         EXPECT_NEAR(tensor.determinant(n) / (M * G * G), 1, 1e-12);
 }
 

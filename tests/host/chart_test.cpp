@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "cards.hpp"
 #include "chart/chart.hpp"
@@ -17,9 +18,9 @@ namespace {
 
 constexpr double order_tolerance = 0.25;  // of a slope that is fitted to increments which are not infinitely small
 
-ChartSettings errors_only() {
+ChartSettings errors_only(const std::vector<int>& increments) {
     ChartSettings settings;
-    settings.increments = {32, 64, 128, 256};
+    settings.increments = increments;
     settings.cost = false;
     settings.vumat = false;
     return settings;
@@ -33,7 +34,10 @@ struct Shown {
     double nearest = HUGE_VAL;  // of the fitted orders to the claimed one
 };
 
-void examine(const Chart& chart, std::map<std::string, Shown>& shown) {
+// Error-controlled algorithms show an order only where increments are smaller than their substeps: `finest` is false
+// for a first look, after which failures call for a closer one. True if a closer look is wanted.
+bool examine(const Chart& chart, std::map<std::string, Shown>& shown, bool finest) {
+    bool closer = false;
     for (const Series& series : chart.series) {
         Shown& algorithm = shown[series.algorithm];
         algorithm.ran = true;
@@ -45,12 +49,16 @@ void examine(const Chart& chart, std::map<std::string, Shown>& shown) {
         if (!chart.reference.smooth) continue;
         // Which of the two shows the order is the algorithm's affair: some have exact stresses and inexact energies.
         if (series.largest_error() > series.exact_enough() && series.order) {
-            EXPECT_GE(*series.order, series.claimed_order - order_tolerance);
+            const bool holds = *series.order >= series.claimed_order - order_tolerance;
+            closer = closer || !holds;
+            if (!holds && !finest) continue;
+            EXPECT_TRUE(holds);
             algorithm.nearest = std::min(algorithm.nearest, std::abs(*series.order - series.claimed_order));
         }
         if (series.largest_dissipation_error() > series.exact_enough() && series.dissipation_order)
             algorithm.nearest = std::min(algorithm.nearest, std::abs(*series.dissipation_order - series.claimed_order));
     }
+    return closer;
 }
 
 TEST_P(ClaimedOrders, ShowOnBuiltInPaths) {
@@ -63,10 +71,11 @@ TEST_P(ClaimedOrders, ShowOnBuiltInPaths) {
             // Every kind of the first sample, the fullest one of the others.
             if (s > 0 && kind != kinds.front()) continue;
             for (const Scenario& path : built_in_paths(model, sample, kind)) {
-                ChartSettings settings = errors_only();
-                settings.kinds = {kind};
+                ChartSettings usual = errors_only({32, 64, 128, 256}), fine = errors_only({512, 1024, 2048});
+                usual.kinds = fine.kinds = {kind};
                 try {
-                    examine(make_chart(path, libraries(), settings, nullptr), shown);
+                    if (examine(make_chart(path, libraries(), usual, nullptr), shown, false))
+                        examine(make_chart(path, libraries(), fine, nullptr), shown, true);
                 } catch (const Refused&) {
                     // A path that the material cannot follow, which the property suite looks into.
                 }
@@ -76,9 +85,10 @@ TEST_P(ClaimedOrders, ShowOnBuiltInPaths) {
     for (int i = 0; i < model.algorithm_count; ++i) {
         const lode_algorithm& algorithm = model.algorithms[i];
         EXPECT_TRUE(shown[algorithm.name].ran) << algorithm.name << ": no sample of " << model.keyword << " can use it";
-        if (std::isfinite(algorithm.order))
+        if (std::isfinite(algorithm.order)) {
             EXPECT_LE(shown[algorithm.name].nearest, order_tolerance)
                 << algorithm.name << ": no built-in path shows the claimed order " << algorithm.order;
+        }
     }
 }
 
@@ -113,10 +123,13 @@ TEST(Chart, ShowsTheAlgorithmsOfJ2) {
             EXPECT_GT(p.cost.median, 0) << series.algorithm;
             EXPECT_LE(p.cost.low, p.cost.high);
         }
-        if (std::isinf(series.claimed_order) && series.precision == Precision::double_)
+        if (series.precision == Precision::single) continue;
+        if (std::isinf(series.claimed_order)) {
             EXPECT_LE(series.largest_error(), 1e-12) << series.algorithm;
-        if (series.algorithm.starts_with("backward Euler (") && series.precision == Precision::double_)
+        }
+        if (series.algorithm.starts_with("backward Euler (")) {
             EXPECT_NEAR(series.order.value_or(0), 1.0, 0.1) << series.interface_name();
+        }
     }
     EXPECT_GE(algorithms.size(), 4U);
     EXPECT_GT(interfaces["UMAT"], 0);

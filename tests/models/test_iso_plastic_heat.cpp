@@ -243,7 +243,7 @@ TEST(IsoPlasticHeat, ExplicitPointsHeatThemselves) {
             block.points.push_back(p);
         }
         block.dtime = 1e-4;
-        Numbers strain(static_cast<std::size_t>(point.size()), 0.004);
+        Numbers strain(static_cast<std::size_t>(point.size()), -0.006);
         strain[0] = 0.012;
         for (int i = 0; i < 4; ++i) {
             for (VumatPoint& p : block.points) p.strain_increment = strain;

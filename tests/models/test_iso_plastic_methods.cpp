@@ -169,7 +169,8 @@ TEST(IsoPlasticMethods, ConvergenceOrders) {
             if (m.method == 5 && law[3] != 0) continue;
             const double coarse = distance(end_of_path(law, m.method, 128 * pieces, pieces), exact);
             const double fine = distance(end_of_path(law, m.method, 512 * pieces, pieces), exact);
-            EXPECT_NEAR(std::log(coarse / fine) / std::log(4.0), m.order, 0.1)
+            // The first flow of law 6 is singular: n < 1.
+            EXPECT_NEAR(std::log(coarse / fine) / std::log(4.0), law[3] == 6 ? 1 : m.order, 0.1)
                 << "METHOD " << m.method << ", HLAW " << law[3] << ": " << coarse << ", " << fine;
         }
     }
