@@ -36,7 +36,7 @@ class JohnsonCook {
         if (rise_ < 0.0) p.refuse(h, ">= 0");
         if (exponent_ <= 0.0) p.refuse(h + 1, "> 0");
         if (rate_factor_ < 0.0) p.refuse(h + 2, ">= 0");
-        if (rate_ <= 0.0) p.refuse(h + 3, "> 0");
+        if (rate_ <= 0.0 && (rate_ < 0.0 || rate_factor_ > 0.0 || fast_factor_ > 0.0)) p.refuse(h + 3, "> 0");
         if (thermal_exponent_ < 0.0) p.refuse(h + 4, "> 0");
         if (fast_factor_ < 0.0) p.refuse(h + 6, ">= 0");
         if (fast_exponent_ < 0.0) p.refuse(h + 7, "> 0");

@@ -91,11 +91,12 @@ TEST_P(Vumat, AgreesWithUmat) {
             {c.stress_scale(), largest(s.point.stress()), largest(umat.stress), c.stiffness * largest(s.load.dstran)});
         EXPECT_LE(distance(vumat.stress, umat.stress), 16.0 * epsilon * scale);
         // STATEV holds strains, stresses and energies, each with the rounding errors of its kind.
-        // What the same rounding of the increment does to an entry counts as well (damage at its onset, eigenvectors).
-        const double strain = scale / c.stiffness;
+        // What rounding of the stress and the increment does to an entry counts as well (damage at its onset,
+        // eigenvectors).
+        const double strain = scale / c.stiffness, grown = 1.0 + 64.0 * epsilon;
         Load rounded = s.load;
-        for (double& x : rounded.dstran) x *= 1.0 + 64.0 * epsilon;
-        const Answer neighbour = s.point.evaluate(rounded);
+        rounded.dstran = scaled(s.load.dstran, grown);
+        const Answer neighbour = UmatPoint(s.point).stress(scaled(s.point.stress(), grown)).evaluate(rounded);
         for (std::size_t k = 0; k < umat.state.size(); ++k) {
             const double size = std::max(std::abs(umat.state[k]), strain * std::max(1.0, largest(umat.stress)));
             const double conditioning = std::abs(neighbour.state[k] - umat.state[k]);

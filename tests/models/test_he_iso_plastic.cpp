@@ -367,6 +367,7 @@ TEST(HeIsoPlastic, RefusesBadConstants) {
     expect_refused(name, {2e5, .3, 3, 400, 1, .3, -1, 1}, {"PROPS(7)"});
     expect_refused(name, {2e5, .3, 3, 400, 1, .3, .1, 0}, {"PROPS(8)"});
     expect_refused(name, {2e5, .3, 3, 400, 1, .3, .1, 1, 1, 1000, 0, 0, 1e-6}, {"PROPS(13)", "exp(-1/C)"});
+    EXPECT_EQ(refusal(name, {2e5, .3, 3, 400, 1, .3}), "") << "nothing depends on the rate";
     expect_refused(name, with(steel, 15, {3}), {"PROPS(15)", "UJ"});
     expect_refused(name, with(steel, 18, {2}), {"PROPS(18)", "YCAU"});
     expect_refused(name, with(steel, 19, {1.5}), {"PROPS(19)", "CHI"});
