@@ -313,6 +313,7 @@ class SofteningCrack {
     template <int K, class Real>
     struct Linked {
         Vector<Real, K> strain, length, brittleness, u;
+        Real modulus = Real(0.0);  // of the shears, where their strength depends on pressure
         Real d;
         Mask<Real> active, fails;
         Vector<Softened<Real>, K> at;
@@ -345,9 +346,112 @@ class SofteningCrack {
         return with_normal && k == 0 ? normal_law : shear_law;
     }
 
-    // sqrt(sum (q/e(d))^2) = 1, which is nearly linear in d.
+    // Laws of any shape: d and the points of the laws together by Newton's method, else one inside the other.
     template <bool with_normal, int K, class Real>
     [[gnu::noinline]] Linked<K, Real> solve_curved(Linked<K, Real> l) const {
+        Real d_end = Real(1.0);
+        for (int k = 0; k < K; ++k) d_end = min(d_end, law_of<with_normal>(k).end_damage(l.brittleness[k]));
+        const Together<K, Real> together = solve_together<with_normal>(l, NoPressure{}, Real(0.0));
+        const Mask<Real> solved = together.solved && together.d < d_end;
+        const Mask<Real> rest = l.active && !solved;
+        l.fails = Mask<Real>(false);
+        if (any(rest)) [[unlikely]] {
+            Linked<K, Real> nested = l;
+            nested.active = rest;
+            l = solve_nested<with_normal>(nested, d_end);
+            l.active = nested.active || solved;
+        }
+        l.d = select(solved, together.d, l.d);
+        for (int k = 0; k < K; ++k) l.at[k] = any(rest) ? choose(solved, together.at[k], l.at[k]) : together.at[k];
+        return l;
+    }
+
+    // With t = d/(1 - d) the points of the laws satisfy u = t r f(u), and the surface is 1/sqrt(S) = 1 with
+    // S = sum (q/e)^2: all nearly linear.
+    template <int K, class Real>
+    struct Together {
+        Real d;
+        Vector<Softened<Real>, K> at;
+        ShearStrength<Real> tau;
+        Mask<Real> solved;
+    };
+    template <bool with_normal, int K, class Real, class Pressure>
+    LODE_INLINE Together<K, Real> solve_together(const Linked<K, Real>& l, [[maybe_unused]] const Pressure& pressure,
+                                                 [[maybe_unused]] const Real& energy) const {
+        constexpr int most = 12;
+        constexpr double tolerance = 4e-15;
+        const Real one(1.0);
+        Together<K, Real> s;
+        s.solved = !l.active;
+        Vector<Real, K> u = l.u;
+        Real t = l.d / max(one - l.d, Real(1e-16));
+        [[maybe_unused]] bool confirmed = !is_differentiated<Real>;
+        for (int iteration = 0;; ++iteration) {
+            const Real inverse = 1.0 / (1.0 + t), d = t * inverse;
+            Vector<Real, K> r = l.brittleness, length = l.length;
+            Real rise = Real(0.0);  // d ln(tau)/dt
+            ShearStrength<Real> tau{};
+            if constexpr (has_pressure<Pressure>) {
+                tau = pressure.strength(d * l.strain[0]);
+                rise = tau.slope / tau.value * (pressure.K * l.strain[0]) * (inverse * inverse);
+                length[K - 1] = energy / tau.value;
+                r[K - 1] = tau.value / (l.modulus * length[K - 1]);
+            }
+            Vector<Softened<Real>, K> at;
+            Vector<Real, K> F, B, A;
+            Real S = Real(0.0), c = Real(0.0), b = Real(0.0);
+            Mask<Real> fits = Mask<Real>(true);
+            for (int k = 0; k < K; ++k) {
+                at[k] = law_of<with_normal>(k).at(u[k]);
+                const Real strain = at[k].strain(r[k]), inverse_strain = 1.0 / strain,
+                           stretch = 1.0 + r[k] * at[k].slope;
+                const Real w = square(l.strain[k] / length[k] * inverse_strain), drop = w * stretch * inverse_strain;
+                F[k] = u[k] - t * r[k] * at[k].f;
+                B[k] = r[k] * at[k].f;
+                A[k] = 1.0 / (1.0 - t * r[k] * at[k].slope);
+                S = S + w;
+                if (has_pressure<Pressure> && k == K - 1) {
+                    c = c + w * rise * (2.0 * B[k] * inverse_strain - 1.0);
+                    B[k] = B[k] * (1.0 + 2.0 * t * rise);
+                }
+                c = c + drop * B[k] * A[k];
+                b = b + drop * F[k] * A[k];
+                fits = fits && abs(F[k]) <= Real(tolerance * u[k]);
+            }
+            const Real root = sqrt(S);
+            Mask<Real> done = l.active && fits && abs(root - 1.0) <= Real(tolerance);
+            if constexpr (is_differentiated<Real>)
+                if (done && !confirmed) {
+                    confirmed = true;  // derivatives are one step behind the value
+                    done = false;
+                }
+            const Mask<Real> fresh = done && !s.solved;
+            const bool first = iteration == 0;
+            for (int k = 0; k < K; ++k) s.at[k] = first ? at[k] : choose(fresh, at[k], s.at[k]);
+            s.d = first ? d : select(fresh, d, s.d);
+            s.tau.value = first ? tau.value : select(fresh, tau.value, s.tau.value);
+            s.tau.slope = first ? tau.slope : select(fresh, tau.slope, s.tau.slope);
+            s.solved = s.solved || done;
+            if (all(s.solved) || iteration == most) {
+                s.solved = s.solved && l.active;
+                return s;
+            }
+            const Real change = (b + S * (root - 1.0)) / c;
+            const Real t_next = t + change;
+            t = max(t_next, Real(0.5 * t));
+            for (int k = 0; k < K; ++k)
+                u[k] = min(max(Real(u[k] + (B[k] * change - F[k]) * A[k]), Real(0.5 * u[k])),
+                           Real(far_end(law_of<with_normal>(k))));
+        }
+    }
+    // Where a law that has no end has fallen below rounding.
+    static double far_end(const SofteningLaw& softening) {
+        return softening.has_end() ? softening.end() : 40.0 * softening.end();
+    }
+
+    // sqrt(sum (q/e(d))^2) = 1, which is nearly linear in d, in a bracket, and the laws inside it.
+    template <bool with_normal, int K, class Real>
+    [[gnu::noinline]] Linked<K, Real> solve_nested(Linked<K, Real> l, Real d_end) const {
         struct Excess {
             Real value, slope;
             Vector<Softened<Real>, K> at;
@@ -369,8 +473,6 @@ class SofteningCrack {
             return x;
         };
         // The group ends where the first of its laws ends.
-        Real d_end = Real(1.0);
-        for (int k = 0; k < K; ++k) d_end = min(d_end, law_of<with_normal>(k).end_damage(l.brittleness[k]));
         Excess end;
         Real sum = Real(0.0);
         for (int k = 0; k < K; ++k) {
@@ -405,8 +507,8 @@ class SofteningCrack {
                                                         const CrackPressure<Real>& pressure, Growth<m, Real>& g) const {
         Real shear = abs(g.end[1]);
         if constexpr (m == 3) shear = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
-        const UnderPressure<Real> step =
-            solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.enabled[0]);
+        const UnderPressure<Real> step = solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear,
+                                                              g.d_old[0], g.e_old[0], g.u_old[0], g.enabled[0]);
         for (int j = 0; j < m; ++j) {
             if (j > 0) {
                 direction[j].set_strength(step.tau.value, direction[j].energy());
@@ -427,10 +529,54 @@ class SofteningCrack {
         Softened<Real> normal, shear;
         Mask<Real> grows, fails;
     };
+    // `n`, `s`: the directions; q, shear: their effective strains; e_old, u_old: of the normal one.
     template <class Real>
     [[gnu::noinline]] UnderPressure<Real> solve_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
                                                                CrackPressure<Real> pressure, Real q, Real shear,
-                                                               Real d_old, Mask<Real> enabled) const {
+                                                               Real d_old, Real e_old, Real u_old,
+                                                               Mask<Real> enabled) const {
+        const Real energy = s.energy();
+        const Mask<Real> damaged = enabled && d_old > Real(0.0);
+        // Of the shear law at the old damage, with another strength.
+        const auto old_point = [&](const Real& tau) {
+            s.set_strength(tau, energy);
+            const Softened<Real> point = shear_law.at_damage(d_old, s.brittleness, Real(0.0), damaged);
+            return select(damaged, point.u, Real(0.0));
+        };
+        UnderPressure<Real> step;
+        const Real start = old_point(pressure.strength(d_old * q).value);
+        const Real strain = s.length * shear_law.at(start).strain(s.brittleness);
+        step.grows =
+            enabled && square(q / e_old) + square(shear / strain) > Real(1.0 + 2.0 * softening_growth_tolerance);
+
+        Linked<2, Real> l;
+        l.strain = {q, shear};
+        l.length = {n.length, s.length};
+        l.brittleness = {n.brittleness, s.brittleness};
+        l.u = {u_old, start};
+        l.modulus = s.modulus;
+        l.d = d_old;
+        l.active = step.grows;
+        const Together<2, Real> together = solve_together<true>(l, pressure, energy);
+        s.set_strength(pressure.strength(q).value, energy);
+        const Real d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(s.brittleness));
+        const Mask<Real> solved = together.solved && together.d < d_end, rest = step.grows && !solved;
+        step.fails = Mask<Real>(false);
+        step.d = select(solved, together.d, d_old);
+        step.tau = together.tau;
+        step.normal = together.at[0];
+        step.shear = together.at[1];
+        if (any(rest)) [[unlikely]]
+            search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step);
+        step.u_old = old_point(step.tau.value);
+        return step;
+    }
+
+    // The same in a bracket, in the lanes `where`.
+    template <class Real>
+    [[gnu::noinline]] void search_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
+                                                 CrackPressure<Real> pressure, Real q, Real shear, Real d_end,
+                                                 Real d_old, Mask<Real> where, UnderPressure<Real>& step) const {
         struct Excess {
             Real value, slope;
             ShearStrength<Real> tau;
@@ -456,29 +602,20 @@ class SofteningCrack {
             x.slope = -2.0 * (w_n * rise_n + w_s * (rise_s + by_tau * x.tau.slope * pressure.K * q));
             return x;
         };
-        UnderPressure<Real> step;
-        step.grows = enabled && evaluate(d_old, enabled).value > Real(2.0 * softening_growth_tolerance);
-
-        SofteningDirection<Real> last = s;
-        last.set_strength(pressure.strength(q).value, energy);
-        const Real d_n = normal_law.end_damage(n.brittleness), d_s = shear_law.end_damage(last.brittleness);
-        const Real d_top = min(d_n, d_s);
-        const Excess end = evaluate(d_top, step.grows);
-        step.fails = step.grows && end.value >= Real(0.0);
-
-        const Mask<Real> inside = step.grows && !step.fails;
-        const auto root = solve_bracketed([&](const Real& d) { return evaluate(d, inside); }, d_old, max(d_top, d_old),
+        const Excess end = evaluate(d_end, where);
+        const Mask<Real> fails = where && end.value >= Real(0.0), inside = where && !fails;
+        const auto root = solve_bracketed([&](const Real& d) { return evaluate(d, inside); }, d_old, max(d_end, d_old),
                                           d_old, Real(4e-15), inside);
-        step.d = select(step.fails, d_top, select(inside, root.x, d_old));
-        step.tau.value = select(step.fails, end.tau.value, root.last.tau.value);
-        step.tau.slope = select(step.fails, end.tau.slope, root.last.tau.slope);
-        step.normal = choose(step.fails, end.normal, root.last.normal);
-        step.shear = choose(step.fails, end.shear, root.last.shear);
-        last.set_strength(step.tau.value, energy);
-        const Mask<Real> damaged = d_old > Real(0.0);
-        step.u_old =
-            select(damaged, shear_law.at_damage(d_old, last.brittleness, Real(0.0), enabled && damaged).u, Real(0.0));
-        return step;
+        const auto take = [&](const Mask<Real>& lanes, const Real& d, const Excess& x) {
+            step.d = select(lanes, d, step.d);
+            step.tau.value = select(lanes, x.tau.value, step.tau.value);
+            step.tau.slope = select(lanes, x.tau.slope, step.tau.slope);
+            step.normal = choose(lanes, x.normal, step.normal);
+            step.shear = choose(lanes, x.shear, step.shear);
+        };
+        take(inside, root.x, root.last);
+        take(fails, d_end, end);
+        step.fails = fails;
     }
     template <class Real>
     LODE_INLINE static Softened<Real> choose(const Mask<Real>& mask, const Softened<Real>& a, const Softened<Real>& b) {
@@ -504,14 +641,21 @@ class SofteningCrack {
             if (j == 2 && links_shears()) g.sets[2] = g.sets[1];
             taken = taken || first;
         }
+        Softened<Real> shears{};
         for (int j = 0; j < m; ++j) {
             const Mask<Real> follows = grows && !fails && !g.sets[j];
             g.fails[j] = fails && g.sets[j];
             g.grows[j] = g.fails[j] || (grows && !fails);
             g.d[j] = select(grows && !fails, d, g.d_old[j]);
-            if (!any(follows)) continue;
-            const SofteningDirection<Real>& dir = direction[j];
-            const Softened<Real> s = law(j).at_damage(d, dir.brittleness, g.u_old[j], follows);
+            if (isotropic && j == 2) {
+                g.at[2] = choose(follows, shears, g.at[2]);
+                continue;
+            }
+            Mask<Real> needed = follows;
+            if (isotropic && j == 1 && m == 3) needed = grows && !fails && !(g.sets[1] && g.sets[m - 1]);
+            if (!any(needed)) continue;
+            const Softened<Real> s = law(j).at_damage(d, direction[j].brittleness, g.u_old[j], needed);
+            if (j == 1) shears = s;
             g.at[j] = choose(follows, s, g.at[j]);
         }
     }

@@ -75,7 +75,7 @@ class SofteningLaw {
                 const double t = a - 1.0;
                 eta_ = a > 1.0 ? 1.0 / (t * std::pow(a / t, 1.0 / a) * std::exp(-t / a) * k_) : 1.0;
                 // Terms of the series of omega down to rounding, at the end, where it converges most slowly.
-                terms_ = series_terms(-std::log(fmin));
+                terms_ = series_terms(-std::log(fmin)), tail_terms_ = series_terms(far);
             }
         }
         end_release_ = value_of(omega(end_)) + 0.5 * end_value_ * end_;
@@ -147,26 +147,39 @@ class SofteningLaw {
     // Out of line: a kernel asks for these in many places.
     template <class Real>
     [[gnu::noinline]] Softened<Real> curved(Real u) const {
+        return with_code([&](auto code) { return curved_of<code>(u); });
+    }
+    // Calls f with the law's code as a compile-time constant.
+    template <class F>
+    LODE_INLINE auto with_code(const F& f) const {
         switch (code_) {
-            case exponential: {
-                const Real f = exp(-u);
-                return {u, f, -f};
-            }
+            case exponential:
+                return f(std::integral_constant<Code, exponential>{});
             case smooth_step:
-            case cubic: {
-                const Real x = min(Real(u * (1.0 / end_)), Real(1.0)), rest = 1.0 - x;
-                return {u, (1.0 + 2.0 * k2_ * x) * (rest * rest), (1.0 / end_) * (a1_ - 6.0 * k2_ * x) * rest};
-            }
-            case double_exponential: {
-                const Real slow = scale_ * exp(-k_ * u), fast = (scale_ * a2_) * exp((-a1_ * k_) * u);
-                return {u, slow - fast, k_ * (a1_ * fast - slow)};
-            }
-            default: {
-                // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
-                const Real size = max(u, Real(1e-300)), z = pow(k_ * size, Real(a1_));
-                const Real f = exp(-z);
-                return {u, f, -a1_ * z / size * f};
-            }
+            case cubic:
+                return f(std::integral_constant<Code, cubic>{});
+            case double_exponential:
+                return f(std::integral_constant<Code, double_exponential>{});
+            default:
+                return f(std::integral_constant<Code, stretched_exponential>{});
+        }
+    }
+    template <Code code, class Real>
+    LODE_INLINE Softened<Real> curved_of(const Real& u) const {
+        if constexpr (code == exponential) {
+            const Real f = exp(-u);
+            return {u, f, -f};
+        } else if constexpr (code == cubic) {
+            const Real x = min(Real(u * (1.0 / end_)), Real(1.0)), rest = 1.0 - x;
+            return {u, (1.0 + 2.0 * k2_ * x) * (rest * rest), (1.0 / end_) * (a1_ - 6.0 * k2_ * x) * rest};
+        } else if constexpr (code == double_exponential) {
+            const Real slow = scale_ * exp(-k_ * u), fast = (scale_ * a2_) * exp((-a1_ * k_) * u);
+            return {u, slow - fast, k_ * (a1_ * fast - slow)};
+        } else {
+            // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
+            const Real size = max(u, Real(1e-300)), z = pow(k_ * size, Real(a1_));
+            const Real f = exp(-z);
+            return {u, f, -a1_ * z / size * f};
         }
     }
 
@@ -191,10 +204,9 @@ class SofteningLaw {
                 const Mask<Real> beyond = u > Real((1.0 + 1e-14) * end_);
                 if (!any(beyond)) [[likely]]
                     return integral - 0.5 * u * f;
-                // On the tail; past z = 40 it is all of the area.
-                const Real tail = u * f * gamma_series(min(z, Real(40.0)), series_terms(40.0));
-                const Real far = select(z > Real(40.0), Real(1.0), tail);
-                return select(beyond, far, integral) - 0.5 * u * f;
+                // On the tail; in the end it is all of the area.
+                const Real tail = u * f * gamma_series(min(z, Real(far)), tail_terms_);
+                return select(beyond, select(z > Real(far), Real(1.0), tail), integral) - 0.5 * u * f;
             }
         }
     }
@@ -220,14 +232,16 @@ class SofteningLaw {
     template <class Real>
     [[gnu::noinline]] Softened<Real> solve_strain(Real x, Real r, Real u_old, Mask<Real> active) const {
         const Real lower = min(u_old, Real(end_)), upper = max(lower, min(x, Real(end_)));
-        const auto residual = [=, this](const Real& u) {
-            const Softened<Real> s = curved(u);
-            return Balance<Real>{s.strain(r) - x, 1.0 + r * s.slope, s};
-        };
         const Mask<Real> small = upper - lower < 2.0 * r;
         const Real start = select(active, select(small, lower, upper), lower);
-        return solve_bracketed<Slope::increasing>(residual, lower, upper, start, Real(tolerance * x), active)
-            .last.point;
+        return with_code([&](auto code) {
+            const auto residual = [=, this](const Real& u) {
+                const Softened<Real> s = curved_of<code>(u);
+                return Balance<Real>{s.strain(r) - x, 1.0 + r * s.slope, s};
+            };
+            return solve_bracketed<Slope::increasing>(residual, lower, upper, start, Real(tolerance * x), active)
+                .last.point;
+        });
     }
 
     // The root is not above r f_max d/(1 - d), nor above the end of a law that ends.
@@ -241,14 +255,16 @@ class SofteningLaw {
             ended = d >= Real(1.0);
         }
         const Real weight = d * r;
-        const auto residual = [=, this](const Real& u) {
-            const Softened<Real> s = curved(u);
-            return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
-        };
         const Real start = select(ended, Real(end_), min(u_start, upper));
-        return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start, Real(tolerance * peak_ * weight),
-                                                  active && !ended)
-            .last.point;
+        return with_code([&](auto code) {
+            const auto residual = [=, this](const Real& u) {
+                const Softened<Real> s = curved_of<code>(u);
+                return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
+            };
+            return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start,
+                                                      Real(tolerance * peak_ * weight), active && !ended)
+                .last.point;
+        });
     }
 
     double double_exponential_end(double fmin) const {
@@ -263,8 +279,9 @@ class SofteningLaw {
     }
 
     static constexpr double tolerance = 2e-15;
+    static constexpr double far = 40.0;  // exp(-far) is less than rounding of 1
 
-    int code_, terms_ = 0;
+    int code_, terms_ = 0, tail_terms_ = 0;
     double a1_, a2_;
     double k2_ = 1.0, k_ = 1.0, scale_ = 1.0;
     double end_ = 0.0, end_value_ = 0.0, peak_ = 1.0, eta_ = 1.0, end_release_ = 0.0;

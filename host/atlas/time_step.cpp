@@ -43,24 +43,18 @@ double limit_by_bisection(MaterialPoint& point, int component, double density, d
     return good;
 }
 
-// Slope of the stress over the strain of a component, by UMAT where there is one.
-double modulus(const Scenario& scenario, const Library& library, int component, double strain_scale, double dtime) {
-    Scenario scene = scenario;
-    if (library.umat() != nullptr) {
-        scene.analysis.entry = Entry::umat;
-        MaterialPoint point(scene, library);
-        const Response still = point.respond(Components::Zero(point.layout().size()), dtime);
-        const double slope = still.tangent(component, component);
-        // d sigma = DDSDDE d eps - sigma tr(d eps) where DDSDDE is the Jaumann rate of Kirchhoff stress over J.
-        const lode_model* model = library.model_of(scene.material.name);
-        const bool finite = model != nullptr && (model->traits & LODE_FINITE_STRAIN) != 0;
-        return finite && component < point.layout().ndi() ? slope - still.stress[component] : slope;
-    }
-    MaterialPoint point(scene, library);
+// Slopes of the stress over the strain of a component, for a small strain either way.
+struct Slopes {
+    double stiffer = 0, softer = 0;
+};
+Slopes slopes(const Scenario& scenario, const Library& library, int component, double strain_scale, double dtime) {
+    MaterialPoint point(scenario, library);
     const double width = relative_amplitude * strain_scale;
-    const Components zero = Components::Zero(point.layout().size());
-    const double still = point.respond(zero).stress[component];
-    return (point.respond(unit_strain(point.layout(), component, width)).stress[component] - still) / width;
+    const auto stress = [&](double strain) {
+        return point.respond(unit_strain(point.layout(), component, strain), dtime).stress[component];
+    };
+    const double still = stress(0), up = (stress(width) - still) / width, down = (still - stress(-width)) / width;
+    return {std::max(up, down), std::min(up, down)};
 }
 
 }  // namespace
@@ -97,13 +91,14 @@ std::vector<TimeStepLimit> time_step_limits(const Scenario& scenario, const Libr
         TimeStepLimit limit;
         limit.component = layout.name(i);
 
-        // The stiffness of a material with viscosity depends on the step.
-        double stiffness = modulus(scene, library, i, strain_scale, 1);
-        if (!(stiffness > 0)) continue;
+        Slopes slope = slopes(scene, library, i, strain_scale, 1);
+        if (!(slope.stiffer > 0)) continue;
+        const double mass = inertia(layout, density, length);
+        // With viscosity the stiffness depends on the step.
         for (int k = 0; k < rate_corrections; ++k)
-            stiffness =
-                modulus(scene, library, i, strain_scale, std::sqrt(inertia(layout, density, length) / stiffness));
-        limit.estimate = std::sqrt(inertia(layout, density, length) / stiffness);
+            slope = slopes(scene, library, i, strain_scale, std::sqrt(mass / slope.stiffer));
+        limit.estimate = std::sqrt(mass / slope.stiffer);
+        limit.softer = slope.softer > 0 ? std::sqrt(mass / slope.softer) : HUGE_VAL;
         limit.found = limit_by_bisection(point, i, density, length, relative_amplitude * strain_scale, limit.estimate);
         limits.push_back(limit);
     }
@@ -115,7 +110,7 @@ std::vector<TimeStepLimit> time_step_along(const Scenario& scenario, const Libra
     std::vector<TimeStepLimit> limits;
     Scenario scene = scenario;
     scene.analysis.entry = Entry::vumat;
-    const double stiffness = modulus(scene, library, 0, strain_scale, 1);
+    const double stiffness = slopes(scene, library, 0, strain_scale, 1).stiffer;
     for (int i = -points; i <= points && stiffness > 0; ++i) {
         MaterialPoint point(scene, library);
         TimeStepLimit limit;

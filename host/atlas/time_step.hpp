@@ -21,7 +21,8 @@ struct TimeStepLimit {
     std::string component;
     double prestrain = 0;
     double found = 0;     // by bisection
-    double estimate = 0;  // element length over the wave speed sqrt(DDSDDE(i,i) / density) of the virgin state
+    double estimate = 0;  // element length over the wave speed of the virgin state, its stiffer side
+    double softer = 0;    // the same of its softer side: contact, say, makes them differ
 };
 
 // Per component in the virgin state.

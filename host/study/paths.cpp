@@ -106,6 +106,7 @@ Scenario sample_scenario(const lode_model& model, const lode_sample& sample, Kin
     scenario.material.constants.assign(sample.constants, sample.constants + sample.constant_count);
     scenario.analysis.kind = kind;
     if ((model.traits & LODE_EQUATION_OF_STATE) != 0) scenario.analysis.temperature = room_temperature;
+    scenario.analysis.fields = {0.0};  // materials that read a field variable find one
     // The deformation gradient is there for models that can use it.
     if (!is_cohesive(kind)) scenario.analysis.large_rotation = true;
     scenario.stem = fmt::format("{}_{}", scenario.material.name, name_of(kind));

@@ -49,7 +49,7 @@ bool examine(const Chart& chart, std::map<std::string, Shown>& shown, bool at_co
         if (!chart.reference.smooth) continue;
         // Which of the two shows the order is the algorithm's affair: some have exact stresses and inexact energies.
         if (series.largest_error() > series.exact_enough() && series.order) {
-            closer = closer || *series.order < series.claimed_order - order_tolerance;
+            closer = closer || std::abs(*series.order - series.claimed_order) > order_tolerance;
             // Singular laws (an infinite initial slope, say) may cost an order above one, but none may cost
             // convergence.
             if (finest && at_corner) {
