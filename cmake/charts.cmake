@@ -1,19 +1,22 @@
 # Draws the figures of docs/charts and lists them: cmake -D LODE=<program> -D DIRECTORY=<docs/charts> -P charts.cmake
-file(GLOB old ${DIRECTORY}/*.svg ${DIRECTORY}/*.csv)
-if(old)
-  file(REMOVE ${old})
+# Without LODE: lists them only.
+if(LODE)
+  file(GLOB old ${DIRECTORY}/*.svg)
+  if(old)
+    file(REMOVE ${old})
+  endif()
+  execute_process(COMMAND ${LODE} chart --all --first --path corner --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${LODE} atlas --all --first --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
 endif()
-execute_process(COMMAND ${LODE} chart --all --first --path corner --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${LODE} atlas --all --first --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
-# The pages show the SVG files; scripts and bitmaps are for whoever runs the commands.
-file(GLOB rest ${DIRECTORY}/*.gp ${DIRECTORY}/*.png)
+# The pages show the SVG files; tables, scripts and bitmaps are for whoever runs the commands.
+file(GLOB rest ${DIRECTORY}/*.csv ${DIRECTORY}/*.gp ${DIRECTORY}/*.png)
 if(rest)
   file(REMOVE ${rest})
 endif()
 
 file(GLOB figures RELATIVE ${DIRECTORY} ${DIRECTORY}/*.svg)
 list(SORT figures)
-set(page "# Figures\n\n[How to read them](README.md). Written by the target `charts`; the data are in the CSV files.\n")
+set(page "# Figures\n\n[How to read them](README.md). Written by the target `charts`; the commands write the data of each figure as CSV too.\n")
 set(last "")
 foreach(figure IN LISTS figures)
   string(REGEX REPLACE "_(3d|plane_strain|plane_stress|1d|cohesive_2d|cohesive_3d)_.*" "" material "${figure}")

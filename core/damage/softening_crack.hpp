@@ -94,6 +94,8 @@ class SofteningCrack {
             if constexpr (m == 3) {
                 if (links_shears()) {
                     grow_group<1, 2>(direction, g);
+                } else if (isotropic && is_coupled()) {
+                    grow_larger(direction, g);
                 } else {
                     grow_alone(1, direction, g);
                     grow_alone(2, direction, g);
@@ -237,7 +239,7 @@ class SofteningCrack {
             if (isotropic && j == 2 && links_shears()) g.u_old[2] = g.u_old[1];
             else
                 g.u_old[j] =
-                    shear_law.at_damage(g.d_old[j], dir.brittleness, Real(0.0), g.enabled[j] && g.d_old[j] > Real(0.0))
+                    shear_law.at_damage(g.d_old[j], dir.brittleness, g.u_old[j], g.enabled[j] && g.d_old[j] > Real(0.0))
                         .u;
             const Real u = select(g.d_old[j] > Real(0.0), g.u_old[j], Real(0.0));
             g.u_old[j] = u;
@@ -265,6 +267,21 @@ class SofteningCrack {
     template <int m, class Real>
     LODE_INLINE void grow_alone(int j, const Vector<SofteningDirection<Real>, m>& direction, Growth<m, Real>& g) const {
         grow_direction(j, Real(abs(g.end[j])), direction[j], g);
+    }
+
+    // SURF 3 of an isotropic crack: the larger of the shears is the one that may set the common damage.
+    template <int m, class Real>
+    LODE_INLINE void grow_larger(const Vector<SofteningDirection<Real>, m>& direction, Growth<m, Real>& g) const {
+        const Real y = abs(g.end[1]), z = abs(g.end[2]);
+        const Mask<Real> first = y >= z;
+        grow_direction(1, Real(max(y, z)), direction[1], g);
+        const Real end = direction[1].length * shear_law.end_strain(direction[1].brittleness), d = g.d[1];
+        g.grows[2] = g.grows[1];
+        g.fails[1] = g.grows[1] && y >= end;
+        g.fails[2] = g.grows[1] && z >= end;
+        g.at[2] = g.at[1];
+        g.d[1] = select(first, d, g.d_old[1]);
+        g.d[2] = select(first, g.d_old[2], d);
     }
 
     // Section 5.2: the directions first .. first + count - 1. The shears of an isotropic crack act as one.
@@ -507,8 +524,9 @@ class SofteningCrack {
                                                         const CrackPressure<Real>& pressure, Growth<m, Real>& g) const {
         Real shear = abs(g.end[1]);
         if constexpr (m == 3) shear = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
-        const UnderPressure<Real> step = solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear,
-                                                              g.d_old[0], g.e_old[0], g.u_old[0], g.enabled[0]);
+        const UnderPressure<Real> step =
+            solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.e_old[0],
+                                 g.u_old[0], g.u_old[1], g.enabled[0]);
         for (int j = 0; j < m; ++j) {
             if (j > 0) {
                 direction[j].set_strength(step.tau.value, direction[j].energy());
@@ -529,22 +547,23 @@ class SofteningCrack {
         Softened<Real> normal, shear;
         Mask<Real> grows, fails;
     };
-    // `n`, `s`: the directions; q, shear: their effective strains; e_old, u_old: of the normal one.
+    // `n`, `s`: the directions; q, shear: their effective strains; e_old, u_old: of the normal one; `shear_old`: u of
+    // the other under another pressure.
     template <class Real>
     [[gnu::noinline]] UnderPressure<Real> solve_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
                                                                CrackPressure<Real> pressure, Real q, Real shear,
-                                                               Real d_old, Real e_old, Real u_old,
+                                                               Real d_old, Real e_old, Real u_old, Real shear_old,
                                                                Mask<Real> enabled) const {
         const Real energy = s.energy();
         const Mask<Real> damaged = enabled && d_old > Real(0.0);
         // Of the shear law at the old damage, with another strength.
-        const auto old_point = [&](const Real& tau) {
+        const auto old_point = [&](const Real& tau, const Real& guess) {
             s.set_strength(tau, energy);
-            const Softened<Real> point = shear_law.at_damage(d_old, s.brittleness, Real(0.0), damaged);
+            const Softened<Real> point = shear_law.at_damage(d_old, s.brittleness, guess, damaged);
             return select(damaged, point.u, Real(0.0));
         };
         UnderPressure<Real> step;
-        const Real start = old_point(pressure.strength(d_old * q).value);
+        const Real start = old_point(pressure.strength(d_old * q).value, shear_old);
         const Real strain = s.length * shear_law.at(start).strain(s.brittleness);
         step.grows =
             enabled && square(q / e_old) + square(shear / strain) > Real(1.0 + 2.0 * softening_growth_tolerance);
@@ -568,7 +587,7 @@ class SofteningCrack {
         step.shear = together.at[1];
         if (any(rest)) [[unlikely]]
             search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step);
-        step.u_old = old_point(step.tau.value);
+        step.u_old = old_point(step.tau.value, start);
         return step;
     }
 

@@ -244,38 +244,82 @@ class SofteningLaw {
         });
     }
 
-    // The root is not above r f_max d/(1 - d), nor above the end of a law that ends.
     template <class Real>
     [[gnu::noinline]] Softened<Real> solve_damage(Real d, Real r, Real u_start, Mask<Real> active) const {
-        const Real rest = max(1.0 - d, Real(1e-16));
-        Real upper = r * peak_ * d / rest;
-        Mask<Real> ended = Mask<Real>(false);
-        if (has_end()) {
-            upper = min(upper, Real(end_));
-            ended = d >= Real(1.0);
+        switch (code_) {
+            case smooth_step:
+            case cubic:
+                return solve_cubic(d, r, u_start, active);
+            case exponential:
+                return solve_by_newton<exponential>(d, r, u_start, active);
+            case double_exponential:
+                return solve_by_newton<double_exponential>(d, r, u_start, active);
+            default:
+                return solve_by_lambert(d, r);
         }
-        const Real weight = d * r;
-        const Real start = select(ended, Real(end_), min(u_start, upper));
-        return with_code([&](auto code) {
-            const auto residual = [=, this](const Real& u) {
-                const Softened<Real> s = curved_of<code>(u);
-                return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
-            };
-            return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start,
-                                                      Real(tolerance * peak_ * weight), active && !ended)
-                .last.point;
-        });
+    }
+    template <Code code, class Real>
+    LODE_INLINE Softened<Real> solve_by_newton(const Real& d, const Real& r, const Real& u_start,
+                                               const Mask<Real>& active) const {
+        // The root is not above r f_max d/(1 - d).
+        const Real rest = max(1.0 - d, Real(1e-16)), weight = d * r;
+        const Real upper = (1.0 + 1e-12) * peak_ * weight / rest, start = min(u_start, upper);
+        const auto residual = [=, this](const Real& u) {
+            const Softened<Real> s = curved_of<code>(u);
+            return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
+        };
+        return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start, Real(tolerance * peak_ * weight),
+                                                  active)
+            .last.point;
+    }
+    // Law 6: with y = (k u)^a and t = d/(1 - d) the condition is y e^(a y) = (k t r)^a, a y = W0(a (k t r)^a) with
+    // Lambert's function. Winitzki's approximation, two steps of Fritsch's fourth-order iteration, and one of Newton
+    // for u itself.
+    template <class Real>
+    LODE_INLINE Softened<Real> solve_by_lambert(const Real& d, const Real& r) const {
+        const Real target = max(Real(d * r), Real(1e-300)) / max(Real(1.0 - d), Real(1e-16));
+        const Real log_X = std::log(a1_) + a1_ * log(k_ * target);
+        const Real L = select(log_X > Real(30.0), log_X, log1p(exp(min(log_X, Real(30.0)))));
+        Real w = L * (1.0 - log1p(L) / (2.0 + L));
+        for (int i = 0; i < 2; ++i) {
+            const Real z = log_X - log(max(w, Real(1e-300))) - w, next = 1.0 + w;
+            const Real q = 2.0 * next * (next + (2.0 / 3.0) * z);
+            w = w * (1.0 + z / next * (q - z) / (q - 2.0 * z));
+        }
+        const double inverse = 1.0 / a1_;
+        const Real near = (1.0 / k_) * pow(max(Real(inverse * w), Real(1e-300)), Real(inverse));
+        const Softened<Real> s = curved_of<stretched_exponential>(near);
+        const Real step = (target * s.f - near) / (1.0 - target * s.slope);
+        const Mask<Real> damaged = d > Real(0.0);
+        return {select(damaged, near + step, Real(0.0)), select(damaged, s.f + s.slope * step, Real(1.0)), s.slope};
+    }
+    // f has a double root at the end: with x = y^2 the square root of the condition is nearly linear in y,
+    // 1 - y^2 = y sqrt(end (1 - d)/(d r (1 + 2 k2 y^2))).
+    template <class Real>
+    LODE_INLINE Softened<Real> solve_cubic(const Real& d, const Real& r, const Real& u_start,
+                                           const Mask<Real>& active) const {
+        const Real one(1.0);
+        const Real ratio = sqrt(end_ * max(one - d, Real(0.0)) / max(Real(d * r), Real(1e-280)));
+        const auto residual = [=, this](const Real& y) {
+            const Real x = y * y, rest = 1.0 - x, stretch = 1.0 + 2.0 * k2_ * x;
+            const Real root = ratio / sqrt(stretch);
+            const Softened<Real> s{end_ * x, stretch * (rest * rest), (1.0 / end_) * (a1_ - 6.0 * k2_ * x) * rest};
+            return Balance<Real>{rest - y * root, -2.0 * y - root / stretch, s};
+        };
+        const Real start = select(d < one, sqrt(min(Real(u_start * (1.0 / end_)), one)), one);
+        return solve_bracketed<Slope::decreasing>(residual, Real(0.0), one, start, Real(1e-15), active && d < one)
+            .last.point;
     }
 
     double double_exponential_end(double fmin) const {
         const double a = a1_, b = a2_;
         const double top = a * b > 1.0 ? std::log(a * b) / (k_ * (a - 1.0)) : 0.0;
-        const double far = std::max(-std::log((1.0 - b) * fmin), -std::log(fmin)) / k_;
+        const double last = std::max(-std::log((1.0 - b) * fmin), -std::log(fmin)) / k_;
         const auto residual = [&](double u) {
             const Softened<double> s = at(u);
             return Residual<double>{s.f - fmin, s.slope};
         };
-        return solve_bracketed<Slope::decreasing>(residual, top, std::max(far, top), far, 1e-15 * fmin).x;
+        return solve_bracketed<Slope::decreasing>(residual, top, std::max(last, top), last, 1e-15 * fmin).x;
     }
 
     static constexpr double tolerance = 2e-15;

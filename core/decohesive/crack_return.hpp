@@ -133,8 +133,9 @@ bool first_sign_change(const F& value, bool falls, double end, double& lower, do
     }
 }
 
-// (C2) Opening and multiplier of a crack above its surface; false if it fails.
-inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, CrackJump<double>& jump) {
+// (C2) Opening and multiplier of a crack above its surface, to about `accuracy`; false if it fails.
+inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, double accuracy,
+                   CrackJump<double>& jump) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double tau_s = std::sqrt((s.t * s.t + s.p * s.p) * law.strength.inverse_tau_sf_square);
     double x_l = 0.0;
@@ -143,7 +144,8 @@ inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u
         const auto B = [&](double x) { return mode_one(law, s, u, x); };
         double lower = 0.0, upper = 0.0;
         if (!first_sign_change([&](double x) { return B(x).value; }, true, x_f, lower, upper)) return false;
-        const double tolerance = 2.0 * epsilon * (1.0 + std::abs(law.strength.inverse_tau_nf * s.n));
+        const double size = 1.0 + std::abs(law.strength.inverse_tau_nf * s.n);
+        const double tolerance = std::max(2.0 * epsilon, 1e-7 * accuracy) * size;
         x_l = solve_bracketed<Slope::decreasing>(B, lower, upper, upper, tolerance).x;
     }
     jump.n = x_l;
@@ -152,7 +154,7 @@ inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u
         double lower = x_l, upper = x_l;
         if (!first_sign_change([&](double x) { return r(x).value; }, false, x_f, lower, upper)) return false;
         const double start_N = evaluate_decohesion<1>(law.strength, law.opened(s, lower), law.softening(u + lower)).N;
-        const double tolerance = epsilon * start_N * tau_s / law.kappa;
+        const double tolerance = accuracy * start_N * tau_s / law.kappa;
         if (lower == x_l && B_start >= 0.0) {
             // Phi grows from 0 like x - x_l: its root is smooth in z = sqrt(x - x_l).
             const auto along_z = [&](double z) {
@@ -207,6 +209,23 @@ CrackJump<Real> refined(const CrackLaw& law, const PlaneStresses<Real>& s, const
     return jump;
 }
 
+// Newton's method from near the solution; false, and the jump as it was, where it does not converge.
+inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, CrackJump<double>& jump) {
+    CrackJump<double> better = jump;
+    for (int iteration = 0; iteration < 6; ++iteration) {
+        const CrackJump<double> next = refined(law, s, u, better);
+        if (!(next.n >= 0.0 && next.n <= x_f && next.omega >= 0.0)) return false;
+        const double change = std::abs(next.n - better.n), omega_change = std::abs(next.omega - better.omega);
+        better = next;
+        // Of second order: what this step left is rounding.
+        if (change <= 1e-9 * next.n && omega_change <= 1e-9 * next.omega) {
+            jump = better;
+            return true;
+        }
+    }
+    return false;
+}
+
 // The jump of a crack of opening u in the stress s that it would bear unopened. `failed`: it had failed before.
 inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<double>& s, double u, bool has_failed) {
     using namespace crack_return_detail;
@@ -218,16 +237,15 @@ inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<dou
         if (decohesion(k, s, f) <= decohesion_tolerance) return jump;
         jump.response = CrackResponse::softening;
         if (!k.rankine) {
-            if (soften(law, s, u, x_f, jump)) {
-                const CrackJump<double> better = refined(law, s, u, jump);
-                const bool sound = std::abs(better.n - jump.n) <= 1e-6 * law.u_0 && better.n >= 0.0 && better.n <= x_f;
-                if (sound && better.omega >= 0.0) return better;
-                jump.eta = 1.0 / (1.0 + law.kappa * jump.omega);
-                const double sliding = 2.0 * k.inverse_tau_sf_square * jump.omega * jump.eta;
-                jump.t = sliding * s.t;
-                jump.p = sliding * s.p;
-                return jump;
-            }
+            // The root to a few digits, then Newton's method on the two equations, which are regular in mode I as well.
+            if (!soften(law, s, u, x_f, 1e-5, jump)) return failed(law, s, x_f);
+            if (polish(law, s, u, x_f, jump)) return jump;
+            soften(law, s, u, x_f, std::numeric_limits<double>::epsilon(), jump);
+            jump.eta = 1.0 / (1.0 + law.kappa * jump.omega);
+            const double sliding = 2.0 * k.inverse_tau_sf_square * jump.omega * jump.eta;
+            jump.t = sliding * s.t;
+            jump.p = sliding * s.p;
+            return jump;
         } else if (law.exponential) {
             const auto r = [&](double x) {
                 const double fx = law.softening(u + x);

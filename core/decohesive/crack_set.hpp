@@ -4,42 +4,12 @@
 
 #include <array>
 
-#include "lode/decohesive/crack_return.hpp"
+#include "lode/decohesive/crack.hpp"
+#include "lode/decohesive/cutting_plane.hpp"
+#include "lode/decohesive/elimination.hpp"
 #include "lode/decohesive/orientation_search.hpp"
 
 namespace lode {
-
-inline constexpr int most_cracks = 20;
-
-template <class Real>
-struct Crack {
-    Vector<Real, 3> n, u;  // normal, displacement jump
-    Real G;                // energy dissipated per area
-    int phase;             // 0 none, 1 softening, 2 failed and open, 3 failed and closed
-
-    Crack() = default;  // not set
-    template <class Other>
-    explicit Crack(const Crack<Other>& c) : G(value_of(c.G)), phase(c.phase) {
-        for (int i = 0; i < 3; ++i) {
-            n[i] = Real(value_of(c.n[i]));
-            u[i] = Real(value_of(c.u[i]));
-        }
-    }
-};
-
-// How cracks start and increments are integrated.
-struct CrackControl {
-    int most;         // N_c
-    int integration;  // 0 backward Euler, 1 cutting plane, n >= 2: backward Euler in n substeps
-    double closest;   // cos alpha_th + 1e-12
-    bool prescribed;  // the normal is in the first crack already
-    bool accepts_unconverged;
-
-    int substeps() const { return integration >= 2 ? integration : 1; }
-    bool cutting_plane() const { return integration == 1; }
-};
-
-enum class CrackStatus { done, unconverged, no_cutting_plane };
 
 template <AnalysisKind kind, class Real>
 class CrackSet {
@@ -205,8 +175,10 @@ class CrackSet {
         const CriticalPlane<Real> last = critical_plane<kind, Real>(k, stress);
         if (!(value_of(last.F) > decohesion_tolerance)) return false;
         next.n = last.n;
-        if constexpr (kind != AnalysisKind::uniaxial)
-            if (critical_plane<kind, Real>(k, start).F < Real(0.0)) next.n = normal_at_event(start, change);
+        if constexpr (kind != AnalysisKind::uniaxial) {
+            const double F_start = value_of(critical_plane<kind, Real>(k, start).F);
+            if (F_start < 0.0) next.n = normal_at_event(start, change, value_of(last.F) - F_start);
+        }
         if (is_too_close(next.n)) next.n = last.n;
         return !is_too_close(next.n);
     }
@@ -215,9 +187,10 @@ class CrackSet {
             if (std::abs(value_of(dot(n, at(j).n))) > control_.closest) return true;
         return false;
     }
-    // The critical plane at the first instant of the step at which its F is zero.
-    [[gnu::noinline]] Vector<Real, 3> normal_at_event(const Stress<kind, Real>& start,
-                                                      const Stress<kind, Real>& change) const {
+    // The critical plane at the first instant of the step at which its F, which rises by `rise` in all, is zero.
+    [[gnu::noinline]] Vector<Real, 3> normal_at_event(const Stress<kind, Real>& start, const Stress<kind, Real>& change,
+                                                      double rise) const {
+        constexpr double rounding = 4e-15;  // of F
         using Line = Gradient<1>;
         CrackSet<kind, Line> line(*this);
         for (int j = 0; j < count; ++j) {
@@ -231,7 +204,7 @@ class CrackSet {
             const Line F = critical_plane<kind, Line>(law_.strength, line.stress).F;
             return Residual<double>{F.value, F.slope[0]};
         };
-        const auto root = solve_bracketed<Slope::increasing>(largest_F, 0.0, 1.0, 1.0, 1e-16);
+        const auto root = solve_bracketed<Slope::increasing>(largest_F, 0.0, 1.0, 1.0, 1e-14 * rise + rounding);
         CrackSet at_event(*this);
         const auto plane = [&](const Real& part) {
             at_event.trial_ = start + part * change;
@@ -333,7 +306,7 @@ class CrackSet {
         const double tolerance = 1e-13 * law_.u_0;
         std::array<bool, most_cracks> latched{};
         for (int j = 0; j < count; ++j) jump(j) = CrackJump<Real>::none();
-        int next_attempt = 4;
+        int next_attempt = 2;
         for (int sweep = 1; sweep <= sweeps; ++sweep) {
             double change = 0.0;
             bool same = true;
@@ -398,83 +371,14 @@ class CrackSet {
         return false;
     }
 
-    // Gaussian elimination with partial pivoting, right-hand sides beside each other; false if singular.
-    template <class Number>
-    static bool solve_in_place(double* matrix, int n, Number* rhs, int columns) {
-        for (int k = 0; k < n; ++k) {
-            int pivot = k;
-            for (int i = k + 1; i < n; ++i)
-                if (std::abs(matrix[i * n + k]) > std::abs(matrix[pivot * n + k])) pivot = i;
-            if (!(std::abs(matrix[pivot * n + k]) > 0.0)) return false;
-            if (pivot != k) {
-                for (int i = k; i < n; ++i) std::swap(matrix[pivot * n + i], matrix[k * n + i]);
-                for (int i = 0; i < columns; ++i) std::swap(rhs[pivot * columns + i], rhs[k * columns + i]);
-            }
-            const double inverse = 1.0 / matrix[k * n + k];
-            for (int i = k + 1; i < n; ++i) {
-                const double factor = matrix[i * n + k] * inverse;
-                if (factor == 0.0) continue;
-                for (int l = k + 1; l < n; ++l) matrix[i * n + l] -= factor * matrix[k * n + l];
-                for (int l = 0; l < columns; ++l)
-                    rhs[i * columns + l] = rhs[i * columns + l] - factor * rhs[k * columns + l];
-            }
-        }
-        for (int k = n - 1; k >= 0; --k)
-            for (int l = 0; l < columns; ++l) {
-                Number sum = rhs[k * columns + l];
-                for (int i = k + 1; i < n; ++i) sum = sum - matrix[k * n + i] * rhs[i * columns + l];
-                rhs[k * columns + l] = sum * (1.0 / matrix[k * n + k]);
-            }
-        return true;
-    }
-
     // Cutting plane of the source (4.5): the cracks once in sequence, all quantities at the current iterate.
     CrackStatus cut() {
         stress = trial_;
         for (int j = 0; j < count; ++j) {
-            PlaneStresses<Real> s = frame(j).stresses(stress);
-            jump(j) = CrackJump<Real>::none();
-            const CrackStatus status = cut_one(s, start_opening(j), at(j).phase >= 2, jump(j));
-            if (status != CrackStatus::done) return status;
+            if (!cutting_plane(law_, frame(j).stresses(stress), start_opening(j), at(j).phase >= 2, jump(j)))
+                return CrackStatus::no_cutting_plane;
             if (jump(j).response != CrackResponse::elastic) stress = stress - released(j, jump(j));
         }
-        return CrackStatus::done;
-    }
-    CrackStatus cut_one(const PlaneStresses<Real>& start, const Real& u, bool has_failed, CrackJump<Real>& d) const {
-        const DecohesionConstants& k = law_.strength;
-        const Real x_f = law_.u_0 - u;
-        if (!has_failed && x_f > Real(0.0)) {
-            PlaneStresses<Real> s = start;
-            for (int iteration = 0;; ++iteration) {
-                const Real f = law_.softening(Real(u + d.n));
-                if (!(decohesion(k, s, f) > Real(decohesion_tolerance))) return CrackStatus::done;
-                if (iteration == 100) return CrackStatus::no_cutting_plane;
-                d.response = CrackResponse::softening;
-                Real N(k.inverse_tau_nf), F = decohesion(k, s, f), F_f(-1.0), along = law_.A_n * N, shear = Real(0.0);
-                double sliding = 0.0;
-                if (!k.rankine) {
-                    const auto e = evaluate_decohesion<1>(k, s, f);
-                    N = e.N;
-                    F_f = e.F_f;
-                    along = law_.A_n * N + law_.A_t * e.F_tt + law_.A_p * e.F_pp;
-                    sliding = 2.0 * k.inverse_tau_sf_square;
-                    shear = (sliding * sliding * law_.A_s) * (s.t * s.t + s.p * s.p);
-                }
-                const Real F_omega = F_f * law_.slope(f) * N - N * along - shear;
-                if (!(F_omega < Real(0.0))) return CrackStatus::no_cutting_plane;
-                const Real omega = -F / F_omega;
-                const Real x = omega * N, t = omega * sliding * s.t, p = omega * sliding * s.p;
-                d.n = d.n + x;
-                d.t = d.t + t;
-                d.p = d.p + p;
-                d.omega = d.omega + omega;
-                if (!(d.n < x_f)) break;
-                s = law_.opened(s, x);
-                s.t = s.t - law_.A_s * t;
-                s.p = s.p - law_.A_s * p;
-            }
-        }
-        d = crack_return_detail::failed(law_, start, x_f);
         return CrackStatus::done;
     }
 

@@ -221,6 +221,9 @@ struct ElasticDecohesive {
                 std::array<bool, lanes> failed{};
                 failed[lane] = true;
                 point.fail(Mask<Batch>::load_unaligned(failed.data()), one.failure, one.time_step_ratio);
+                point.refusal = one.refusal;
+                point.refused_value = Batch(one.refused_value);
+                point.refused_limit = Batch(one.refused_limit);
                 return false;
             }
             if (one.warning != nullptr) point.warn(one.warning);
@@ -293,7 +296,13 @@ struct ElasticDecohesive {
         using namespace elastic_decohesive;
         constexpr double largest_stress = 1e30;  // in units of F_C: squares of cubes are still numbers
         const KindStiffness<kind> stiffness(moduli);
-        const bool cracked = value_of(point.state[J]) > 0.0;
+        const double given = value_of(point.state[J]);
+        if (!(given >= 0.0 && given <= most_cracks_)) {
+            point.refuse(Mask<Real>(true), "STATEV(1), the number of cracks,", point.state[J], "within 0 and",
+                         Real(most_cracks_));
+            return false;
+        }
+        const bool cracked = given > 0.0;
         const double length = cracked ? value_of(point.state[LENGTH]) : value_of(element_length);
         const CrackLaw law = law_for<kind>(length);
         const CrackControl rules = control<kind>(explicit_host);

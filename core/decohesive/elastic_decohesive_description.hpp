@@ -101,7 +101,7 @@ inline constexpr double joint[] = {24900.0, 0.18, 2.7, 14.9, 90.0, 42.7, 0.06135
 inline constexpr double rankine[] = {24900.0, 0.18, 2.7, 14.9, 90.0, 42.7, 0.06135, 0.0, 0.2, 0.1,
                                      5.0,     1,    0,   1,    30.0, 0.0,  0.0,     0.0, 0.0, 4.0};
 inline constexpr lode_sample samples[] = {
-    {"CONCRETE", "concrete, up to three cracks on searched planes, N, mm", concrete, count_of(concrete), 2.5e-4,
+    {"CONCRETE", "concrete, up to three cracks on searched planes, N, mm", concrete, count_of(concrete), 2e-4,
      LODE_SOLID},
     {"WALL", "concrete, exponential softening, two cracks at least 45 degrees apart, thermal expansion, N, mm, 1/K",
      wall, count_of(wall), 3e-4, LODE_PLANE_STRAIN | LODE_PLANE_STRESS},

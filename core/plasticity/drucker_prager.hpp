@@ -70,7 +70,7 @@ class Kernel {
             integrate(point.stress, course, tangent);
         }
 
-        point.elastic_energy = c.elastic.energy(point.stress);
+        point.elastic_energy = course.energy;
         point.plastic_dissipation = course.work;
         const Real heat = c.thermal.plastic_heat(course.heat, course.work);
         Real volume_change = trace(increment.strain_increment), volume_heat = Real(0.0);
@@ -111,6 +111,7 @@ class Kernel {
         FlowStress<Real> cohesion;
         Real work = Real(0.0), heat = Real(0.0);  // sigma:dep, and the heat of the source rule
         Real volume = Real(0.0), region = Real(0.0);
+        Real energy = Real(0.0);     // sigma:S:sigma/2 at the end
         Real thickness = Real(0.0);  // mechanical strain increment 33, plane stress
         Strain<plastic_strain_layout(kind), Real> plastic_strain{};
         Stress<kind, Real> stress;  // at the end, of substeps
@@ -142,6 +143,9 @@ class Kernel {
         course.work = course.work + end.work();
         course.heat = course.heat + end.heat(c.initial_cohesion);
         course.volume = course.volume + end.volume;
+        // q^2/(2G) + p^2/(2K)
+        course.energy = c.elastic.half_compliance * (2.0 * (1.0 + c.elastic.poisson) * (end.q * end.q) +
+                                                     3.0 * (1.0 - 2.0 * c.elastic.poisson) * (end.p * end.p));
         course.region = select(end.yields, select(end.at_apex, Real(2.0), Real(1.0)), Real(0.0));
         if constexpr (wants_tangent<T>) set_tangent(s_trial, end, course, tangent);
     }
@@ -207,6 +211,7 @@ class Kernel {
         course.volume = course.volume + volume;
         course.thickness = course.thickness + plastic_thickness +
                            (c.elastic.poisson / c.elastic.young) * (start_sum - (stress[0] + stress[1]));
+        course.energy = c.elastic.energy(stress);
         course.region = select(end.yields, Real(1.0), Real(0.0));
     }
 
@@ -275,6 +280,7 @@ class Kernel {
         course.heat = sensitive.heat.value;
         course.volume = sensitive.volume.value;
         course.region = sensitive.region.value;
+        course.energy = sensitive.energy.value;
         course.thickness = sensitive.thickness.value;
         for (int i = 0; i < components(plastic_strain_layout(kind)); ++i)
             course.plastic_strain[i] = sensitive.plastic_strain[i].value;

@@ -47,6 +47,7 @@ class ConeReturn {
           xi_over_eta_(cone.eta > 0.0 ? cone.xi / cone.eta : 0.0),
           initial_cohesion_(initial_cohesion),
           unloading_((G + cone.eta * cone.eta_bar * K) / (cone.xi * cone.xi)),
+          inverse_unloading_(1.0 / unloading_),
           axis_unloading_(cone.eta * cone.eta_bar * K / (cone.xi * cone.xi)),
           on_cone_(law, unloading_),
           on_axis_(law, axis_unloading_) {}
@@ -103,7 +104,7 @@ class ConeReturn {
             hardening = cone_.eta_bar > 0.0 ? cone_.xi / cone_.eta_bar * dvolume : 0.0;
             p = -xi_over_eta_ * slope * hardening;
         } else {
-            hardening = (inverse_xi_ * dq - eta_over_xi_ * dp) / (unloading_ + slope);
+            hardening = on_cone_.plastic_share(slope) * inverse_unloading_ * (inverse_xi_ * dq - eta_over_xi_ * dp);
             dlambda = inverse_xi_ * hardening;
             dvolume = cone_.eta_bar * dlambda;
             dq_end = dq - G_ * dlambda;
@@ -191,7 +192,7 @@ class ConeReturn {
     Law law_;
     Cone cone_;
     double G_, K_, inverse_K_, inverse_xi_, eta_over_xi_, xi_over_eta_, initial_cohesion_;
-    double unloading_, axis_unloading_;  // (G + eta eta_bar K)/xi^2, eta eta_bar K/xi^2
+    double unloading_, inverse_unloading_, axis_unloading_;  // (G + eta eta_bar K)/xi^2, eta eta_bar K/xi^2
     ReturnToYield<Law> on_cone_, on_axis_;
 };
 

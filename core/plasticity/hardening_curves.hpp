@@ -120,8 +120,11 @@ struct PowerHardening {
     template <class Real>
     LODE_INLINE FlowStress<Real> flow_stress(const Real& x) const {
         // The slope at 0 is infinite for n < 1: a large number stands for it.
-        const Real rise = factor * quick_pow(x, exponent), per_base = 1.0 / max(x, Real(smallest));
-        const Real slope = exponent * per_base * select(x < Real(smallest), Real(factor * 1e-15), rise);
+        const Real base = max(x, Real(smallest)), per_base = 1.0 / base;
+        Real rise = factor * quick_pow(base, exponent);
+        const Real slope = exponent * rise * per_base;
+        const auto tiny = x < Real(smallest);
+        if (any(tiny)) rise = select(tiny, factor * quick_pow(x, exponent), rise);
         return {yield + rise, slope, (exponent - 1.0) * slope * per_base};
     }
     template <class Real>

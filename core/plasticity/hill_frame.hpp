@@ -1,5 +1,6 @@
 // Material axes of HILL_PLASTIC in the host's: R = Q R0, where Q is what the host has turned so far (page 20, section
-// 5). Q itself is kept in STATEV, row by row; all zero means I. An explicit host turns its frame itself: R = R0 there.
+// 5). Q itself is kept in STATEV, row by row; all zero means I. An explicit host and one that keeps stress in the
+// unrotated frame need no Q: R = R0 there.
 #pragma once
 
 #include "lode/elastic/material_axes.hpp"
@@ -21,6 +22,7 @@ struct MaterialFrame {
         frame.R = own;
         frame.is_turned = axes.r.m != Matrix3<double>::identity().m;
         if constexpr (!is_batch<Real>) {
+            if (!increment.has_rotation()) return frame;
             bool is_zero = true, is_identity = true, is_still = true;
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j) {

@@ -97,15 +97,11 @@ class Kernel {
         }
 
         if (c.has_axes) {
-            for (int i = ThermalBlock::TAD; i <= ThermalBlock::ENTR; ++i) state.keep(i);
+            for (int i = ThermalBlock::TAD; i < hill_plastic::Q; ++i) state.keep(i);
             frame.store(state, hill_plastic::Q);
         }
         c.thermal.store(increment, state, course.work, heat, volume_heat);
-        if (keeps_plastic_strain(point)) {
-            store_plastic_strain(increment, point, frame.to_host(plastic_strain(course)));
-        } else if (c.has_axes) {
-            for (int i = 0; i < 6; ++i) state.keep(plastic_strain_slot + i);
-        }
+        if (keeps_plastic_strain(point)) store_plastic_strain(increment, point, frame.to_host(plastic_strain(course)));
         const Real total_equivalent = state[EQPE] + course.equivalent;
         state.set(EQPS, course.alpha);
         state.set(GREL, course.g.value);

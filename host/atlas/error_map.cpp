@@ -152,7 +152,7 @@ set palette defined (0 '#f7fbff', 0.25 '#c6dbef', 0.5 '#6baed6', 0.75 '#2171b5',
 set cblabel 'error (% of the stress at the limit)'
 set size ratio -1
 set key off
-set autoscale xyfix
+set autoscale fix
 )";
     sheet.plot =
         "plot $grid using 1:2:3 with image pixels, $contours using 1:2 with lines lw 1 lc rgb '#303030', "

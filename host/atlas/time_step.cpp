@@ -13,6 +13,7 @@ constexpr double growth = 1000;              // an amplitude that has grown so m
 constexpr int oscillations = 2000;
 constexpr double resolution = 1e-5;
 constexpr int rate_corrections = 2;
+constexpr double rate_dependence = 1e-5;
 
 // Strain of a unit acceleration: two masses density * length / 2, a unit area, apart by u: u'' = -4 stress / (density
 // length) with the strain u / length, or the separation u.
@@ -98,6 +99,8 @@ std::vector<TimeStepLimit> time_step_limits(const Scenario& scenario, const Libr
         for (int k = 0; k < rate_corrections; ++k)
             slope = slopes(scene, library, i, strain_scale, std::sqrt(mass / slope.stiffer));
         limit.estimate = std::sqrt(mass / slope.stiffer);
+        const double slower = slopes(scene, library, i, strain_scale, 0.5 * limit.estimate).stiffer;
+        limit.rate_dependent = std::abs(slower / slope.stiffer - 1) > rate_dependence;
         limit.softer = slope.softer > 0 ? std::sqrt(mass / slope.softer) : HUGE_VAL;
         limit.found = limit_by_bisection(point, i, density, length, relative_amplitude * strain_scale, limit.estimate);
         limits.push_back(limit);

@@ -20,9 +20,10 @@ bool oscillator_is_stable(MaterialPoint& point, int component, double density, d
 struct TimeStepLimit {
     std::string component;
     double prestrain = 0;
-    double found = 0;     // by bisection
-    double estimate = 0;  // element length over the wave speed of the virgin state, its stiffer side
-    double softer = 0;    // the same of its softer side: contact, say, makes them differ
+    double found = 0;             // by bisection
+    double estimate = 0;          // element length over the wave speed of the virgin state, its stiffer side
+    double softer = 0;            // the same of its softer side: contact, say, makes them differ
+    bool rate_dependent = false;  // the stiffness depends on the step; damping makes the stable one smaller
 };
 
 // Per component in the virgin state.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double dissipating = 1e-13;  // of the elastic energy
 constexpr int bisections = 200;
+constexpr double no_limit = 1e-9;  // of the largest length tried
 
 Scenario resolved(Scenario scenario, const Library& library) {
     resolve(scenario, library);
@@ -112,7 +113,8 @@ std::optional<double> elastic_limit(const Scenario& scenario, const Library& lib
         const double middle = 0.5 * (good + bad);
         (elastic(middle) ? good : bad) = middle;
     }
-    return good;
+    // Viscosity dissipates from the first.
+    return good > no_limit * largest ? std::optional(good) : std::nullopt;
 }
 
 }  // namespace lode::host

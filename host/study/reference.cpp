@@ -26,6 +26,8 @@ Trace combined(const Trace& coarse, const Trace& fine, double factor) {
             p.stress[i] += factor * (other->stress[i] - p.stress[i]);
             p.strain[i] += factor * (other->strain[i] - p.strain[i]);
         }
+        p.energies.plastic += factor * (other->energies.plastic - p.energies.plastic);
+        p.energies.creep += factor * (other->energies.creep - p.energies.creep);
     }
     return result;
 }

@@ -400,6 +400,49 @@ TEST(DruckerPrager, SubstepsAreIncrements) {
     }
 }
 
+// DDSDDE, DDSDDT, DRPLDE and DRPLDT against central differences: perfect plasticity, both methods, all kinds and
+// regions, with thermoelastic heat.
+TEST(DruckerPrager, DerivativesAreThoseOfTheUpdate) {
+    const Numbers laws[] = {{0, 0.0}, {1, 50.0}};
+    const Numbers paths[] = {{-0.02, 0.012, 0.006, 0.01, -0.004, 0.008}, {0.03, 0.02, 0.025, 0.002, 0.001, 0.001}};
+    for (const auto kind : kinds)
+        for (const Numbers& law : laws)
+            for (const double method : {0.0, 2.0})
+                for (const Numbers& path : paths) {
+                    Numbers props = direct;
+                    props.insert(props.end(), law.begin(), law.end());
+                    props.resize(21, 0.0);
+                    props[13] = 1e-4, props[16] = 2.0, props[18] = 1, props[19] = method, props[20] = 3;
+                    UmatPoint point = make_point(kind, props);
+                    point.temperature(300.0);
+                    const auto n = static_cast<std::size_t>(point.size());
+                    const Load load{
+                        .dstran = Numbers(path.begin(), path.begin() + point.size()), .dtime = 0.5, .dtemp = 2.0};
+                    const Answer answer = point.evaluate(load);
+                    ASSERT_GT(answer.state[REGION - 1], 0.0);
+                    const double stiffness = 1200.0, heat = 300.0;  // sizes of DDSDDE and DRPLDE
+                    const auto compare = [&](const Load& ahead, const Load& back, double h, const auto& stress,
+                                             double rpl, double unit) {
+                        const Answer a = point.evaluate(ahead), b = point.evaluate(back);
+                        for (std::size_t i = 0; i < n; ++i)
+                            EXPECT_NEAR(stress(i), (a.stress[i] - b.stress[i]) / (2 * h), 1e-6 * stiffness * unit);
+                        EXPECT_NEAR(rpl, (a.rpl - b.rpl) / (2 * h), 1e-6 * heat * unit);
+                    };
+                    for (std::size_t k = 0; k < n; ++k) {
+                        Load ahead = load, back = load;
+                        ahead.dstran[k] += 1e-7, back.dstran[k] -= 1e-7;
+                        const auto column = [&](std::size_t i) {
+                            return answer.tangent(static_cast<int>(i), static_cast<int>(k));
+                        };
+                        compare(ahead, back, 1e-7, column, answer.drplde[k], 1.0);
+                    }
+                    Load hot = load, cold = load;
+                    hot.dtemp += 1e-3, cold.dtemp -= 1e-3;
+                    compare(
+                        hot, cold, 1e-3, [&](std::size_t i) { return answer.ddsddt[i]; }, answer.drpldt, 1e-3);
+                }
+}
+
 TEST(DruckerPrager, SelfHeating) {
     // TMODE 3: dT = (dPhi - 3K alpha T d eps_v)/RHOCV, acting as thermal strain one increment later.
     Numbers props = hardening;

@@ -712,6 +712,15 @@ TEST(ElasticDecohesive, RefusedConstants) {
     EXPECT_TRUE(concrete(solid, with(T, {{N_X, 1}, {N_Z, 1}})).evaluate({}).done());
 }
 
+TEST(ElasticDecohesive, AForeignNumberOfCracksIsRefused) {
+    for (const double count : {-1.0, 4.0, nan}) {
+        UmatPoint point = concrete(solid, T);
+        Numbers state = point.state();
+        state[J - 1] = count;
+        expect_refusal(point.state(state), {"STATEV(1)", "3"});
+    }
+}
+
 // Two cracks at the smallest angle: the split of the opening is not unique beyond 0.3552 sin^2(alpha_th) m.
 TEST(ElasticDecohesive, WarnsWhereTwoCracksDoNotShareUniquely) {
     EXPECT_EQ(concrete(solid, T, 0.088).evaluate({}).messages.warnings.size(), 0u);
