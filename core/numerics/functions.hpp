@@ -1,6 +1,6 @@
 // Exponential, logarithm and power for kernels. For a double they are inlined, so that a call does not push a material
-// point out of the registers, without tables, and without a division but for the logarithm; errors are below 2 units in
-// the last place. Batches and differentiated numbers use their own functions.
+// point out of the registers, and free of divisions; errors are below 2 units in the last place. Batches and
+// differentiated numbers use their own functions.
 #pragma once
 
 #include <bit>
@@ -33,19 +33,41 @@ LODE_INLINE Reduced reduce(double x) {
     return {r + r2 * q, std::bit_cast<double>(bits + std::bit_cast<std::uint64_t>(1.0))};
 }
 
+// 1/c and ln c of the bins of the mantissa, c their middle; the bin around 1 has c = 1.
+struct LogarithmTable {
+    static constexpr int bits = 5, size = 1 << bits;
+    static constexpr std::uint64_t first = 0x3fe6400000000000u;  // 0.695
+    double inverse[size] = {}, logarithm[size] = {};
+
+    constexpr LogarithmTable() {
+        for (int i = 0; i < size; ++i) {
+            const auto middle = first + (static_cast<std::uint64_t>(2 * i + 1) << (51 - bits));
+            inverse[i] = 1.0 / std::bit_cast<double>(middle);
+            // -ln(1/c) = -2 artanh(s)
+            const long double y = inverse[i], s = (y - 1.0L) / (y + 1.0L);
+            long double power = s, sum = 0.0L;
+            for (int k = 1; k < 60; k += 2) {
+                sum += power / k;
+                power *= s * s;
+            }
+            logarithm[i] = static_cast<double>(-2.0L * sum);
+        }
+    }
+};
+inline constexpr LogarithmTable logarithm_table;
+
 LODE_INLINE double logarithm(double x) {
-    constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcdu;  // sqrt(1/2)
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    const auto above = bits - root_half;
+    const auto above = std::bit_cast<std::uint64_t>(x) - LogarithmTable::first;
     const double k = static_cast<double>(static_cast<std::int64_t>(above) >> 52);
-    const double m = std::bit_cast<double>((above & 0x000fffffffffffffu) + root_half);
-    // ln m = 2 artanh((m - 1)/(m + 1)), m in [sqrt(1/2), sqrt(2)]
-    const double f = m - 1.0, s = f / (2.0 + f);
-    const double z = s * s, z2 = z * z, z4 = z2 * z2;
-    const double p0 = 2.0 / 3 + z * (2.0 / 5), p1 = 2.0 / 7 + z * (2.0 / 9), p2 = 2.0 / 11 + z * (2.0 / 13);
-    const double p3 = 2.0 / 15 + z * (2.0 / 17), p4 = 2.0 / 19 + z * (2.0 / 21), p5 = 2.0 / 23;
-    const double q = (p0 + z2 * p1) + z4 * ((p2 + z2 * p3) + z4 * (p4 + z2 * p5));
-    return k * ln2_high + (k * ln2_low + (2.0 * s + s * z * q));
+    const auto mantissa = above & 0x000fffffffffffffu;
+    const auto bin = mantissa >> (52 - LogarithmTable::bits);
+    const double m = std::bit_cast<double>(mantissa + LogarithmTable::first);
+    const double r = fma(m, logarithm_table.inverse[bin], -1.0);  // |r| < 1/63
+    const double r2 = r * r, r4 = r2 * r2;
+    const double p0 = -1.0 / 2 + r * (1.0 / 3), p1 = -1.0 / 4 + r * (1.0 / 5), p2 = -1.0 / 6 + r * (1.0 / 7);
+    const double p3 = -1.0 / 8 + r * (1.0 / 9);
+    const double q = (p0 + r2 * p1) + r4 * (p2 + r2 * p3);
+    return k * ln2_high + (logarithm_table.logarithm[bin] + (k * ln2_low + (r + r2 * q)));
 }
 
 }  // namespace functions_detail

@@ -80,10 +80,10 @@ class DislocationHardening {
         return {g.value, g.slope * per_x, (g.bend - g.slope) * (per_x * per_x)};
     }
 
-    template <Line line, class Real>
-    LODE_INLINE ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_apart(*this, at, stiffness_[line], q_trial, alpha, k, yields);
+    template <class Real>
+    ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                const FlowStress<Real>& k, const Mask<Real>& yields) const {
+        return solve_along(stiffness_[line], at, q_trial, alpha, k, yields);
     }
     template <Line line>
     double plastic_share(const At<double>&, double H) const {
@@ -160,12 +160,11 @@ class DislocationHardening {
         return {yield_ + power * z, power * (m * z + z1), power * (m * (m * z + 2.0 * z1) + z2)};
     }
 
-    // Out of line and everything by value, in y = ln(dalpha).
+    // In y = ln(dalpha).
     template <class Real>
-    [[gnu::noinline]] static ReturnResult<Real> solve_apart(DislocationHardening self, At<Real> at, double S,
-                                                            Real q_trial, Real alpha, FlowStress<Real> k,
-                                                            Mask<Real> yields) {
-        const auto residual = [self, at, S, q_trial, alpha](const Real& y) {
+    ReturnResult<Real> solve_along(double S, const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                   const FlowStress<Real>& k, const Mask<Real>& yields) const {
+        const auto residual = [self = *this, at, S, q_trial, alpha](const Real& y) {
             const Real x = quick_exp(y), drop = S * x;
             const Growth<Real> g = self.growth(at, alpha, x, y);
             return ReturnTrial<Real>{
@@ -175,8 +174,8 @@ class DislocationHardening {
         const Real upper = quick_log(excess * (1.0 / S)), lower = upper - 600.0;
         // A point that hardly yields flows too slowly to matter.
         const Mask<Real> flows = yields && residual(lower).value > Real(0.0);
-        const Real f = self.wall_fraction(alpha);
-        const Real z = self.strength_ * (f * sqrt(at.densities.wall) + (1.0 - f) * sqrt(at.densities.interior));
+        const Real f = wall_fraction(alpha);
+        const Real z = strength_ * (f * sqrt(at.densities.wall) + (1.0 - f) * sqrt(at.densities.interior));
         const Real plastic_limit = quick_log(excess / z) / at.inverse_m - at.log_rate_scale;
         const auto root = solve_bracketed<Slope::decreasing>(
             residual, lower, upper, max(min(upper, plastic_limit), lower), return_tolerance * q_trial, flows);

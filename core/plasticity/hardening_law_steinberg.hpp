@@ -97,10 +97,10 @@ class Steinberg {
         }
     }
 
-    template <Line line, class Real>
-    LODE_INLINE ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_apart(*this, at, stiffness<line>(at), q_trial, alpha, k, yields);
+    template <class Real>
+    ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                const FlowStress<Real>&, const Mask<Real>& yields) const {
+        return solve_along(line == radial ? stiffness<radial>(at) : stiffness<axial>(at), at, q_trial, alpha, yields);
     }
     template <Line line>
     double plastic_share(const At<double>& at, double H) const {
@@ -187,15 +187,15 @@ class Steinberg {
         return {root.last.dalpha, root.last.flow};
     }
 
-    // Out of line and everything by value. The unknown of law 5 is YT, of which dalpha = DTIME rate(YT) is explicit.
+    // The unknown of law 5 is YT, of which dalpha = DTIME rate(YT) is explicit.
     template <class Real>
-    [[gnu::noinline]] static ReturnResult<Real> solve_apart(Steinberg self, At<Real> at, Real S, Real q_trial,
-                                                            Real alpha, FlowStress<Real>, Mask<Real> yields) {
+    ReturnResult<Real> solve_along(const Real& S, const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                   const Mask<Real>& yields) const {
         if constexpr (!with_thermal_part) {
-            return self.solve_with(at, S, q_trial, alpha, Real(0.0), yields);
+            return solve_with(at, S, q_trial, alpha, Real(0.0), yields);
         } else {
             const double dt = at.time.value;
-            const auto residual = [self, at, S, q_trial, alpha, dt](const Real& part) {
+            const auto residual = [self = *this, at, S, q_trial, alpha, dt](const Real& part) {
                 const RateOf<Real> r = self.rate_of(at, part);
                 const Real x = dt * r.value, x1 = dt * r.slope;
                 const FlowStress<Real> k = self.flow_with(at, alpha + x, part, self.bounded_inverse(x1));
@@ -204,23 +204,23 @@ class Steinberg {
                     -S * x1 - at.strength_ratio + x1 * (at.strength_ratio * self.bounded_inverse(x1) - k.slope),
                     {x, k}};
             };
-            const Real low(self.lowest_), high(self.highest_);
+            const Real low(lowest_), high(highest_);
             Mask<Real> at_low = yields, at_high = Mask<Real>(false);
             if (dt > 0.0) {
                 at_low = yields && residual(low).value <= Real(0.0);
                 at_high = yields && !at_low && residual(high).value >= Real(0.0);
             }
             const Mask<Real> between = yields && !at_low && !at_high;
-            ReturnResult<Real> result{Real(0.0), self.start(at, alpha)};
+            ReturnResult<Real> result{Real(0.0), start(at, alpha)};
             if (any(between)) {
                 const Real safe = select(between, at.strength_ratio, Real(1.0));
-                const Real start = max(min(q_trial / safe - self.curve_.flow_stress(alpha).value, high), low);
+                const Real start = max(min(q_trial / safe - curve_.flow_stress(alpha).value, high), low);
                 const auto root =
                     solve_bracketed<Slope::decreasing>(residual, low, high, start, return_tolerance * q_trial, between);
                 result = root.last.result;
             }
-            if (any(at_low)) result = either(at_low, self.solve_with(at, S, q_trial, alpha, low, at_low), result);
-            if (any(at_high)) result = either(at_high, self.solve_with(at, S, q_trial, alpha, high, at_high), result);
+            if (any(at_low)) result = either(at_low, solve_with(at, S, q_trial, alpha, low, at_low), result);
+            if (any(at_high)) result = either(at_high, solve_with(at, S, q_trial, alpha, high, at_high), result);
             return result;
         }
     }

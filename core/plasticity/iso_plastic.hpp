@@ -62,18 +62,18 @@ struct IsoPlastic {
                 return JohnsonCook(p, H1, p[SIGY], p[TREF], S, E_axial);
             case 4:
                 need(3);
-                return SteinbergGuinan(p, H1, p[SIGY], p[TREF], p[TABS], elastic);
+                return Apart(SteinbergGuinan(p, H1, p[SIGY], p[TREF], p[TABS], elastic));
             case 5:
                 need(9);
-                return SteinbergLund(p, H1, p[SIGY], p[TREF], p[TABS], elastic);
+                return Apart(SteinbergLund(p, H1, p[SIGY], p[TREF], p[TABS], elastic));
             case 7:
                 if (p.count() < H15)
                     p.refuse("HLAW = 7 needs NPROPS >= " + std::to_string(H15) +
                              ", NPROPS = " + std::to_string(p.count()));
-                return DislocationHardening(p, H1, H11, p[SIGY], elastic.shear, p[TABS], S, E_axial);
+                return Apart(DislocationHardening(p, H1, H11, p[SIGY], elastic.shear, p[TABS], S, E_axial));
             default:
-                return HardeningLaw(p, p[SIGY], HLAW, H1).visit<LawVariant>([&](const auto& curve) -> LawVariant {
-                    return CurveLaw<std::decay_t<decltype(curve)>>(curve, elastic);
+                return HardeningLaw(p, p[SIGY], HLAW, H1).visit<LawVariant>([&](const auto& curve) {
+                    return law_of(curve, elastic);
                 });
         }
     }

@@ -273,7 +273,6 @@ class IncrementRules {
 
     LODE_INLINE const DislocationHardening* memory_of_law() const {
         if constexpr (requires { law.dislocations(); }) return law.dislocations();
-        else if constexpr (Law::remembers) return &law;
         else return nullptr;
     }
 

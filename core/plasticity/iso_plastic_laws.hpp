@@ -44,6 +44,12 @@ class CurveLaw {
         if constexpr (line == radial) return radial_(q_trial, alpha, at.scale, k, yields);
         else return axial_(q_trial, alpha, at.scale, k, yields);
     }
+    // On a line chosen at run time.
+    template <class Real>
+    LODE_INLINE ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                            const FlowStress<Real>& k, const Mask<Real>& yields) const {
+        return (line == radial ? radial_ : axial_)(q_trial, alpha, at.scale, k, yields);
+    }
     template <Line line>
     LODE_INLINE double plastic_share(const At<double>&, double H) const {
         if constexpr (line == radial) return radial_.plastic_share(H);
@@ -67,16 +73,123 @@ class CurveLaw {
     ReturnToYield<Curve> radial_, axial_;
 };
 
+// A curve that falls, chosen at run time: softening laws other than the straight one share their code.
+class FallingCurve {
+  public:
+    using Variant = std::variant<NonlinearHardening, PowerHardening, SaturationHardening>;
+
+    template <class Curve>
+    explicit FallingCurve(const Curve& curve) : yield(curve.yield), curve_(curve) {}
+
+    double initial_yield() const { return yield; }
+    template <class Real>
+    FlowStress<Real> flow_stress(const Real& x) const {
+        return std::visit([&](const auto& curve) { return curve.flow_stress(x); }, curve_);
+    }
+    template <class Real>
+    Real stored_energy(const Real& x, const Real& dx, const FlowStress<Real>& k, const FlowStress<Real>& k_end) const {
+        return std::visit([&](const auto& curve) { return curve.stored_energy(x, dx, k, k_end); }, curve_);
+    }
+
+    double yield;
+
+  private:
+    Variant curve_;
+};
+
+// A law whose functions stay out of the kernels: one copy serves all kinds. For the laws that are not the daily bread.
+template <class Law>
+class Apart {
+  public:
+    static constexpr bool softens = Law::softens, feels_rate = Law::feels_rate;
+    static constexpr bool feels_temperature = Law::feels_temperature, changes_shear = Law::changes_shear;
+    static constexpr bool melts = Law::melts, remembers = Law::remembers;
+    template <class Real>
+    using At = typename Law::template At<Real>;
+
+    explicit Apart(const Law& law) : law_(law) {}
+    const Law& law() const { return law_; }
+
+    template <class Real>
+    LODE_INLINE At<Real> at(const Surroundings<Real>& s) const {
+        return law_.at(s);
+    }
+    // Everything by value: a reference would keep the point in memory.
+    template <class Real>
+    [[gnu::noinline]] FlowStress<Real> start(At<Real> at, Real alpha) const {
+        return law_.start(at, alpha);
+    }
+    template <class Real>
+    [[gnu::noinline]] FlowStress<Real> flow(At<Real> at, Real alpha, Real x) const {
+        return law_.flow(at, alpha, x);
+    }
+    template <Line line, class Real>
+    LODE_INLINE ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha,
+                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
+        return solve_apart<Real>(line, at, q_trial, alpha, k, yields);
+    }
+    template <Line line>
+    LODE_INLINE double plastic_share(const At<double>& at, double H) const {
+        return law_.template plastic_share<line>(at, H);
+    }
+    template <class Real>
+    [[gnu::noinline]] PlasticWork<Real> work(At<Real> at, Real alpha, Real dalpha, FlowStress<Real> k,
+                                             FlowStress<Real> k_end) const {
+        return law_.work(at, alpha, dalpha, k, k_end);
+    }
+    [[gnu::noinline]] HeatSlopes slopes(At<double> at, double alpha, double dalpha, FlowStress<double> k,
+                                        FlowStress<double> k_end) const requires Law::feels_temperature {
+        return law_.slopes(at, alpha, dalpha, k, k_end);
+    }
+    double shear_temperature_factor(const At<double>& at) const requires Law::changes_shear {
+        return law_.shear_temperature_factor(at);
+    }
+    template <class Real>
+    Real thermal_part(const At<Real>& at, const Real& alpha, const Real& k) const requires Law::changes_shear {
+        return law_.thermal_part(at, alpha, k);
+    }
+    const DislocationHardening* dislocations() const {
+        if constexpr (std::is_same_v<Law, DislocationHardening>) return &law_;
+        else return nullptr;
+    }
+    double steepest_slope() const requires Law::softens { return law_.steepest_slope(); }
+
+  private:
+    template <class Real>
+    [[gnu::noinline]] ReturnResult<Real> solve_apart(Line line, At<Real> at, Real q_trial, Real alpha,
+                                                     FlowStress<Real> k, Mask<Real> yields) const {
+        return law_.solve_on(line, at, q_trial, alpha, k, yields);
+    }
+
+    Law law_;
+};
+
 using SteinbergGuinan = Steinberg<false>;
 using SteinbergLund = Steinberg<true>;
 
 // F<Law>... over all laws.
 template <template <class...> class F>
-using OverLaws = F<CurveLaw<LinearHardening>, CurveLaw<SaturationHardening>, JohnsonCook, CurveLaw<NonlinearHardening>,
-                   CurveLaw<PowerHardening>, CurveLaw<LinearSoftening>, CurveLaw<Floored<NonlinearHardening>>,
-                   CurveLaw<Floored<PowerHardening>>, CurveLaw<Floored<SaturationHardening>>, SteinbergGuinan,
-                   SteinbergLund, DislocationHardening>;
+using OverLaws =
+    F<CurveLaw<LinearHardening>, CurveLaw<SaturationHardening>, JohnsonCook, CurveLaw<LinearSoftening>,
+      Apart<CurveLaw<NonlinearHardening>>, Apart<CurveLaw<PowerHardening>>, Apart<CurveLaw<Floored<FallingCurve>>>,
+      Apart<SteinbergGuinan>, Apart<SteinbergLund>, Apart<DislocationHardening>>;
 using LawVariant = OverLaws<std::variant>;
+
+// The law of a curve, as it stands in LawVariant.
+template <class Curve>
+LawVariant law_of(const Curve& curve, const IsotropicModuli& elastic) {
+    if constexpr (requires {
+                      curve.floor_at;
+                      curve.law;
+                  }) {
+        const Floored<FallingCurve> falling{FallingCurve(curve.law), curve.floor, curve.floor_at};
+        return Apart(CurveLaw<Floored<FallingCurve>>(falling, elastic));
+    } else if constexpr (std::is_constructible_v<LawVariant, CurveLaw<Curve>>) {
+        return CurveLaw<Curve>(curve, elastic);
+    } else {
+        return Apart(CurveLaw<Curve>(curve, elastic));
+    }
+}
 
 // Any law, chosen at run time. Its flags say what some law does.
 class AnyLaw {
@@ -118,7 +231,8 @@ class AnyLaw {
     ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha, const FlowStress<Real>& k,
                              const Mask<Real>& yields) const {
         return visit<ReturnResult<Real>>([&](const auto& law) {
-            return law.template solve<line>(law.at(at.surroundings), q_trial, alpha, k, yields);
+            auto one = law.at(at.surroundings);
+            return law.template solve<line>(one, q_trial, alpha, k, yields);
         });
     }
     template <class Real>
@@ -129,12 +243,15 @@ class AnyLaw {
     }
     template <class Real>
     Real thermal_part(const At<Real>& at, const Real& alpha, const Real& k) const {
-        const auto* lund = std::get_if<SteinbergLund>(&law_);
+        const auto* lund = std::get_if<Apart<SteinbergLund>>(&law_);
         return lund != nullptr ? lund->thermal_part(lund->at(at.surroundings), alpha, k) : Real(0.0);
     }
     // The law with a memory, or null.
-    const DislocationHardening* dislocations() const { return std::get_if<DislocationHardening>(&law_); }
-    bool is_thermal() const { return std::holds_alternative<SteinbergLund>(law_); }
+    const DislocationHardening* dislocations() const {
+        const auto* law = std::get_if<Apart<DislocationHardening>>(&law_);
+        return law != nullptr ? law->dislocations() : nullptr;
+    }
+    bool is_thermal() const { return std::holds_alternative<Apart<SteinbergLund>>(law_); }
     bool is_softening() const {
         return std::visit([](const auto& law) { return law.softens; }, law_);
     }

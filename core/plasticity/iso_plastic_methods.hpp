@@ -98,11 +98,12 @@ class SteppedKernel {
         constexpr int n = components(kind);
         const double G = kernel_.c.elastic.shear, K = kernel_.c.elastic.bulk;
         const Real mean = (1.0 / 3.0) * trace(point.stress) + K * trace(step.strain);
-        const Stress<kind, Real> start = deviator(point.stress), d = Real(2.0 * G) * deviator(step.strain);
-        DeviatoricState<kind, Real> end;
-        if constexpr (is_batch<Real>) end = follow_lanes<kind>(start, step.alpha, d, step.surroundings.scale);
+        const Deviator<Real> start = in_3d(deviator(point.stress));
+        const Deviator<Real> d = in_3d(Real(2.0 * G) * deviator(step.strain));
+        DeviatoricState<Real> end;
+        if constexpr (is_batch<Real>) end = follow_lanes(start, step.alpha, d, step.surroundings.scale);
         else
-            end = ConstantRatePath<kind, Real>(kernel_.law, step.surroundings.scale, G)
+            end = ConstantRatePath<Real>(kernel_.law, step.surroundings.scale, G)
                       .follow(method_, {start, step.alpha}, d, substeps_, tolerance_);
         step.start = kernel_.law.start(step.at, step.alpha);
         step.dalpha = end.alpha - step.alpha;
@@ -117,26 +118,30 @@ class SteppedKernel {
         point.elastic_energy = double_contraction(end.s, end.s) * (0.25 / G) + mean * mean * (0.5 / K);
         return true;
     }
-    template <AnalysisKind kind>
-    [[gnu::noinline]] DeviatoricState<kind, Batch> follow_lanes(const Stress<kind, Batch>& start, const Batch& alpha,
-                                                                const Stress<kind, Batch>& d,
-                                                                const Batch& scale) const {
-        constexpr int n = components(kind);
+    [[gnu::noinline]] DeviatoricState<Batch> follow_lanes(const Deviator<Batch>& start, const Batch& alpha,
+                                                          const Deviator<Batch>& d, const Batch& scale) const {
+        constexpr int n = 6;
         Lanes<Batch> s[n], increments[n], end[n], alphas = to_lanes(alpha), scales = to_lanes(scale);
         for (int i = 0; i < n; ++i) s[i] = to_lanes(start[i]), increments[i] = to_lanes(d[i]);
         for (std::size_t lane = 0; lane < alphas.size(); ++lane) {
-            DeviatoricState<kind, double> at{{}, alphas[lane]};
-            Stress<kind, double> d_lane;
+            DeviatoricState<double> at{{}, alphas[lane]};
+            Deviator<double> d_lane;
             for (int i = 0; i < n; ++i) at.s[i] = s[i][lane], d_lane[i] = increments[i][lane];
-            const ConstantRatePath<kind, double> path(kernel_.law, scales[lane], kernel_.c.elastic.shear);
+            const ConstantRatePath<double> path(kernel_.law, scales[lane], kernel_.c.elastic.shear);
             const auto there = path.follow(method_, at, d_lane, substeps_, tolerance_);
             for (int i = 0; i < n; ++i) end[i][lane] = there.s[i];
             alphas[lane] = there.alpha;
         }
-        DeviatoricState<kind, Batch> result;
+        DeviatoricState<Batch> result;
         for (int i = 0; i < n; ++i) result.s[i] = from_lanes<Batch>(end[i]);
         result.alpha = from_lanes<Batch>(alphas);
         return result;
+    }
+    template <AnalysisKind kind, class Real>
+    static Deviator<Real> in_3d(const Stress<kind, Real>& s) {
+        Deviator<Real> all;
+        for (int i = 0; i < 6; ++i) all[i] = i < components(kind) ? s[i] : Real(0.0);
+        return all;
     }
 
     // The same on numbers with derivatives: by the strains, and by temperature in direction 6.

@@ -20,17 +20,19 @@ enum class Method {
     forward_euler = 6,   // NSUB substeps, pulled back to the surface
 };
 
-template <AnalysisKind kind, class Real>
+template <class Real>
+using Deviator = Stress<AnalysisKind::solid, Real>;
+template <class Real>
 struct DeviatoricState {
-    Stress<kind, Real> s;
+    Deviator<Real> s;
     Real alpha;
 };
 
-template <AnalysisKind kind, class Real>
+template <class Real>
 class ConstantRatePath {
   public:
-    using S = Stress<kind, Real>;
-    using State = DeviatoricState<kind, Real>;
+    using S = Deviator<Real>;
+    using State = DeviatoricState<Real>;
 
     ConstantRatePath(const AnyLaw& law, const Real& scale, double G) : law_(law), G_(G) {
         Surroundings<Real> s;

@@ -13,6 +13,7 @@ namespace {
 constexpr double farthest = 20;  // strain scales
 constexpr int increments = 4000;
 constexpr int loading_increments = 50;
+constexpr std::size_t plotted_every = 10;
 
 Scenario driven(const Scenario& scenario, Control control, double value, int count) {
     Scenario scene = scenario;
@@ -84,9 +85,10 @@ std::optional<LimitPoint> limit_point(const Scenario& scenario, const Library& l
 Sheet limit_point_sheet(const LimitPoint& limit, const std::string& stem, const std::string& title) {
     Sheet sheet{stem, "", Table({"strain", "stress"}), "", ""};
     std::string data = "$curve << EOD\n";
-    for (const auto& [e, s] : limit.curve) {
+    for (std::size_t i = 0; i < limit.curve.size(); ++i) {
+        const auto& [e, s] = limit.curve[i];
         sheet.table.add({e, s});
-        data += fmt::format("{} {}\n", e, s);
+        if (i % plotted_every == 0) data += fmt::format("{:.6g} {:.6g}\n", e, s);
     }
     sheet.text = fmt::format("{}\n  peak {:.8g} at strain {:.6g}; stress control reaches {:.8g} and then ends: {}\n",
                              title, limit.stress, limit.strain, limit.reached, limit.message);

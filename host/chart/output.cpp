@@ -121,7 +121,7 @@ set pointsize 0.9
     }
     add("$best using 1:2:3 with labels font ',8' textcolor rgb '#606060' offset 0,-0.8 title 'number: increments a "
         "step'");
-    return draw_script(stem, script + terminals(stem, plot));
+    return draw_script(stem, script + terminals(stem, plot, Width::wide));
 }
 
 std::string text(const Chart& chart) {

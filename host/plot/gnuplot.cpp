@@ -54,17 +54,18 @@ set grid lt 1 dt solid lw 0.5 lc rgb '#e0e0e0'
 )";
 }
 
-std::string terminals(const std::string& stem, const std::string& plot) {
+std::string terminals(const std::string& stem, const std::string& plot, Width width) {
     const std::string name = std::filesystem::path(stem).filename().string();
-    return fmt::format(R"(set terminal pngcairo size 1200,800 font 'Noto Sans,13' fontscale 1.2 enhanced
+    return fmt::format(R"(set terminal pngcairo size {},800 font 'Noto Sans,13' fontscale 1.2 enhanced
 set output {}
 {}
-set terminal svg size 760,500 font 'Noto Sans,DejaVu Sans,sans-serif,13' enhanced background 'white' dynamic
+set terminal svg size {},500 font 'Noto Sans,DejaVu Sans,sans-serif,13' enhanced background 'white' dynamic
 set output {}
 replot
 set output
 )",
-                       single_quoted(name + ".png"), plot, single_quoted(name + ".svg"));
+                       width == Width::wide ? 1700 : 1200, single_quoted(name + ".png"), plot,
+                       width == Width::wide ? 1080 : 760, single_quoted(name + ".svg"));
 }
 
 std::string curve_colour(std::size_t index) {

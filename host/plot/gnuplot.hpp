@@ -15,7 +15,9 @@ std::string double_quoted(const std::string& text);
 std::string figure_style();
 // Draws what `plot` says as stem.png and stem.svg; `plot` is one plot or splot command. The files are named without
 // directories, so that the script can be run again wherever they are.
-std::string terminals(const std::string& stem, const std::string& plot);
+// A wide figure has room for a long key beside it.
+enum class Width { usual, wide };
+std::string terminals(const std::string& stem, const std::string& plot, Width width = Width::usual);
 // The colours of curves, used in turn.
 std::string curve_colour(std::size_t index);
 
