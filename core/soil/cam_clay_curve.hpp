@@ -3,9 +3,9 @@
 // isotropic tip of the hardened surface.
 #pragma once
 
+#include "lode/numerics/lanes.hpp"
 #include "lode/numerics/root.hpp"
 #include "lode/soil/cam_clay_elasticity.hpp"
-#include "lode/numerics/lanes.hpp"
 
 namespace lode {
 

@@ -36,7 +36,6 @@ class Adviser {
     }
 
     Advice run() {
-        const Pinned pinned;
         const Muted muted;  // settings that the library refuses are among those tried
         find_reference();
         run_as_written();

@@ -10,7 +10,6 @@
 
 #include "../cards.hpp"
 #include "../guard.hpp"
-#include "../study/cost.hpp"
 #include "../study/libraries.hpp"
 #include "../study/material_point.hpp"
 #include "../study/meter.hpp"
@@ -153,7 +152,6 @@ Status atlas(const AtlasOptions& options) {
     if (samples.empty()) throw Failure(Status::usage, "nothing to map: name materials, or say --all");
 
     const std::string directory = output_directory(options.output_directory);
-    const Pinned pinned;
     Meter meter("atlas", static_cast<int>(samples.size() * map_kinds.size()), options.quiet);
     int sheets = 0;
     for (const auto& [model, sample] : samples) {

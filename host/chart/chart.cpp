@@ -97,7 +97,6 @@ int chart_runs(const Scenario& scenario, const Libraries& libraries, const Chart
 }
 
 Chart make_chart(const Scenario& scenario, const Libraries& libraries, const ChartSettings& settings, Meter* meter) {
-    const Pinned pinned;
     const Muted muted;  // kinds and algorithms that the library refuses are among those tried
     Chart chart;
     chart.title = scenario.title.empty() ? scenario.material.name : scenario.title;

@@ -56,6 +56,7 @@ Cost measure(Scenario scenario, const Library& library, int repetitions) {
     const double block_time = blocks ? guess * block : guess;
     const int repeats = static_cast<int>(
         std::clamp(wanted_nanoseconds / std::max(block_time, 1.0), double{fewest_repeats}, double{most_repeats}));
+    const Pinned pinned;
     std::vector<double> times;
     for (int i = 0; i < repetitions; ++i) times.push_back(run(repeats));
     std::sort(times.begin(), times.end());

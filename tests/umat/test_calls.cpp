@@ -244,9 +244,8 @@ TEST(Catalogue, ModelsAreDescribed) {
         EXPECT_NE(std::string(m.limits), "") << "where it fails";
         for (int p = 0; p < m.parameter_count; ++p) {
             EXPECT_LE(m.parameters[p].lower, m.parameters[p].upper) << m.parameters[p].symbol;
-            if (m.parameters[p].flags >> LODE_REPEATED_SHIFT == 0)
-                EXPECT_EQ((m.parameters[p].flags & LODE_OPTIONAL) != 0, p >= m.required_count)
-                    << m.parameters[p].symbol;
+            if (m.parameters[p].flags >> LODE_REPEATED_SHIFT != 0) continue;
+            EXPECT_EQ((m.parameters[p].flags & LODE_OPTIONAL) != 0, p >= m.required_count) << m.parameters[p].symbol;
         }
         for (int s = 0; s < m.sample_count; ++s) {
             EXPECT_GT(m.samples[s].strain_scale, 0.0);
