@@ -29,7 +29,8 @@ struct JohnsonCookFlow {
         }
         LODE_INLINE ReturnResult<Real> solve(const Real& q, const Real& stiffness, const Real& alpha,
                                              const FlowStress<Real>& k, const Mask<Real>& where) const {
-            return law.solve_along(stiffness, now, q, alpha, k, where);
+            auto end = now;  // what the law notes there is not needed
+            return law.solve_along(stiffness, end, q, alpha, k, where);
         }
         // dK/dtemperature at fixed dalpha.
         LODE_INLINE Real temperature_slope(const Real& alpha, const Real& dalpha, const Real& K) const {

@@ -28,6 +28,105 @@ struct DeviatoricState {
     Real alpha;
 };
 
+// The turning of the deviator (section 3, METHOD 1): with V = 3G alpha + k(alpha), t = a/R from 0 on and R that of the
+// start, dV/dt = sqrt(3/2) R cos(psi), du/dt = -k/k(alpha(V)). With the derivatives by u at the start.
+class Turning {
+  public:
+    struct State {
+        double V, u, V_u0, u_u0;
+        friend State moved(const State& y, double h, const State& rate) {
+            return {y.V + h * rate.V, y.u + h * rate.u, y.V_u0 + h * rate.V_u0, y.u_u0 + h * rate.u_u0};
+        }
+    };
+    State at;
+
+    Turning(const AnyLaw& law, const Surroundings<double>& s, double G, double alpha, bool is_radial)
+        : law_(law),
+          law_at_(law.at(s)),
+          G3_(3.0 * G),
+          alpha_(alpha),
+          start_(law.start(law_at_, alpha)),
+          is_radial_(is_radial),
+          is_straight_(start_.curvature == 0.0 && !law.is_softening()) {}
+
+    // Gragg's midpoint rule, extrapolated in the square of its step, in panels that follow the error.
+    bool integrate(double u0, double length) {
+        constexpr int columns = 8;
+        at = {G3_ * alpha_ + start_.value, u0, 0.0, 1.0};
+        double left = length, H = std::min(length, 0.5);
+        for (int panel = 0; panel < 10000; ++panel) {
+            H = std::min(H, left);
+            State table[columns];
+            double change = HUGE_VAL;
+            int c = 0;
+            for (; c < columns; ++c) {
+                const int n = 2 * (c + 1);
+                const double h = H / n;
+                State before = at, now = moved(at, h, rate(at));
+                for (int i = 1; i < n; ++i) {
+                    const State next = moved(before, 2.0 * h, rate(now));
+                    before = now;
+                    now = next;
+                }
+                State end = mean(now, moved(before, h, rate(now)));
+                for (int j = 0; j < c; ++j) {
+                    const double ratio = double(c + 1) / double(c - j), factor = 1.0 / (ratio * ratio - 1.0);
+                    const State better = moved(end, factor, difference(end, table[j]));
+                    table[j] = end;
+                    end = better;
+                }
+                table[c] = end;
+                // Two neighbours of this row.
+                if (c > 0) change = size(difference(end, table[c - 1]));
+                if (c > 2 && change < 2e-15) break;
+            }
+            const State end = table[std::min(c, columns - 1)];
+            if (!(change < 1e-13) && H > 1e-6 * length) {
+                H *= 0.5;
+                continue;
+            }
+            if (!(change < 1e-6)) return false;
+            at = end;
+            left -= H;
+            if (left <= 1e-15 * length) return true;
+            if (c < 6) H *= 2.0;
+        }
+        return false;
+    }
+    // d(V, u)/dt at the end.
+    State speed() const { return rate(at); }
+
+  private:
+    State rate(const State& y) const {
+        FlowStress<double> k = start_;
+        if (is_straight_) {
+            k.value = start_.value + start_.slope * (y.V - G3_ * alpha_ - start_.value) / (G3_ + start_.slope);
+        } else {
+            const double q = std::max(y.V - G3_ * alpha_, start_.value);
+            const auto end = law_.template solve<radial>(law_at_, q, alpha_, start_, true);
+            k = {q - G3_ * end.dalpha, end.flow.slope, 0.0};
+        }
+        const double pull = start_.value / k.value, k_V = k.slope / (G3_ + k.slope);
+        // cos(psi) = -tanh(u)
+        const double e = quick_expm1(-2.0 * std::abs(y.u)), tanh = -e / (2.0 + e);
+        const double cosine = is_radial_ ? 1.0 : y.u > 0.0 ? -tanh : tanh;
+        const double bend = is_radial_ ? 0.0 : (1.0 - cosine) * (1.0 + cosine);
+        return {start_.value * cosine, -pull, -start_.value * bend * y.u_u0, pull / k.value * k_V * y.V_u0};
+    }
+    static State mean(const State& a, const State& b) { return moved(a, 0.5, difference(b, a)); }
+    static State difference(const State& a, const State& b) { return moved(a, -1.0, b); }
+    double size(const State& y) const {
+        return std::max({std::abs(y.V) / (start_.value + G3_ * alpha_), std::abs(y.u), std::abs(y.V_u0) / start_.value,
+                         std::abs(y.u_u0)});
+    }
+
+    const AnyLaw& law_;
+    AnyLaw::At<double> law_at_;
+    double G3_, alpha_;
+    FlowStress<double> start_;
+    bool is_radial_, is_straight_;
+};
+
 template <class Real>
 class ConstantRatePath {
   public:
@@ -126,90 +225,35 @@ class ConstantRatePath {
             // R (turned dh + rho s_c/R), gamma = (R/2G)(-ln rho)
             return {R * turned * dh + rho * c.s, c.alpha - root23 * (R / (2.0 * G_)) * quick_log(rho)};
         }
-        // t = a'/R from 0 to a/R: dV/dt = sqrt(3/2) R cos(psi), du/dt = -R/R(alpha(V)), V = 3G alpha + k. On a radial
-        // path, where tan(psi/2) vanishes, u is counted from 0: what is across shrinks by exp(u). (Backward Euler has
-        // the stress, but not the tangent.)
+        // On a radial path, where tan(psi/2) vanishes, u is counted from 0: what is across shrinks by exp(u). (Backward
+        // Euler has the stress, but not the tangent.)
         const bool is_radial = across < 1e-7 * R;
         Real u0(0.0);
         if (!is_radial) u0 = quick_log(along > Real(0.0) ? across / (R + along) : (R - along) / across);
-        const Pair start{3.0 * G_ * c.alpha + k.value, u0};
-        const auto rate = [&](const Pair& y) {
-            const Real K = strength_of(y.V, c.alpha, k);
-            return Pair{(1.5 * root23) * R * (is_radial ? Real(1.0) : cosine(y.u)), Real(0.0) - k.value / K};
-        };
-        Pair end{start};
-        if (!extrapolate(rate, a / R, k.value, end)) return backward_euler({c.s + d, c.alpha});
-        const Real K = strength_of(end.V, c.alpha, k);
-        const Real alpha = (end.V - K) / (3.0 * G_);
-        if (is_radial) return {root23 * K * dh + (K / k.value) * quick_exp(end.u) * w, alpha};
-        const Real R1 = root23 * K, cosine1 = cosine(end.u), tail = quick_exp(Real(0.0) - abs(end.u));
-        const Real sine1 = 2.0 * tail / (1.0 + tail * tail);
-        return {R1 * cosine1 * dh + (R1 * sine1 / across) * w, alpha};
+        const Real length = a / R;
+        Turning turning(law_, value_of_surroundings(), G_, value_of(c.alpha), is_radial);
+        if (!turning.integrate(value_of(u0), value_of(length))) return backward_euler({c.s + d, c.alpha});
+        // Value and derivatives.
+        const Real late = length - Real(value_of(length)), turned = u0 - Real(value_of(u0));
+        const Real V = turning.at.V + turning.speed().V * late + turning.at.V_u0 * turned;
+        const Real u = turning.at.u + turning.speed().u * late + turning.at.u_u0 * turned;
+        const Real K = strength_of(V, c.alpha, k), alpha = (V - K) / (3.0 * G_);
+        if (is_radial) return {root23 * K * dh + (K / k.value) * quick_exp(u) * w, alpha};
+        const Real tail = quick_exp(Real(0.0) - abs(u)), tail2 = tail * tail;
+        const Real sine = 2.0 * tail / (1.0 + tail2), size = (1.0 - tail2) / (1.0 + tail2);
+        const Real cosine = u > Real(0.0) ? Real(0.0) - size : size;
+        return {root23 * K * cosine * dh + (root23 * K * sine / across) * w, alpha};
     }
-    struct Pair {
-        Real V, u;
-    };
     // k of V = 3G alpha + k(alpha): the scalar return.
     Real strength_of(const Real& V, const Real& alpha, const FlowStress<Real>& k) const {
         const Real q = max(V - 3.0 * G_ * alpha, k.value);
         return q - 3.0 * G_ * law_.template solve<radial>(at_, q, alpha, k, true).dalpha;
     }
-    // cos(psi) = -tanh(u)
-    static Real cosine(const Real& u) {
-        const Real e = expm1(-2.0 * abs(u));
-        const Real tanh = Real(0.0) - e / (2.0 + e);
-        return u > Real(0.0) ? Real(0.0) - tanh : tanh;
+    Surroundings<double> value_of_surroundings() const {
+        Surroundings<double> s;
+        s.scale = value_of(at_.surroundings.scale);
+        return s;
     }
-    // Gragg's midpoint rule, extrapolated in the square of its step, in panels that are halved until two orders agree.
-    template <class Rate>
-    static bool extrapolate(const Rate& rate, const Real& length, const Real& scale, Pair& y) {
-        constexpr int columns = 8;
-        double part = 1.0, done = 0.0;
-        // A panel of a tenth of a turn converges at once.
-        while (part * value_of(length) > 0.5) part *= 0.5;
-        for (int panel = 0; panel < 100000 && done < 1.0;) {
-            const Real H = part * length;
-            Pair table[columns];
-            double change = HUGE_VAL;
-            int c = 0;
-            for (; c < columns; ++c) {
-                const int n = 2 * (c + 1);
-                const Real h = H * (1.0 / n);
-                Pair before = y, now = moved(y, h, rate(y));
-                for (int i = 1; i < n; ++i) {
-                    const Pair next = moved(before, 2.0 * h, rate(now));
-                    before = now;
-                    now = next;
-                }
-                const Pair last = moved(before, h, rate(now));
-                Pair previous{0.5 * (now.V + last.V), 0.5 * (now.u + last.u)};
-                for (int j = 0; j < c; ++j) {
-                    const double ratio = double(c + 1) / double(c - j), factor = 1.0 / (ratio * ratio - 1.0);
-                    const Pair better =
-                        moved(previous, Real(factor), {previous.V - table[j].V, previous.u - table[j].u});
-                    table[j] = previous;
-                    previous = better;
-                }
-                // table[j] now has column j of this row; the differences are between neighbours.
-                if (c > 0)
-                    change = std::max(std::abs(value_of(previous.V - table[c - 1].V)) / value_of(scale),
-                                      std::abs(value_of(previous.u - table[c - 1].u)));
-                table[c] = previous;
-                if (c > 3 && change < 1e-15) break;
-            }
-            const Pair& best = table[std::min(c, columns - 1)];
-            if (!(change < 1e-12) && part > 1e-5) {
-                part *= 0.5;
-                ++panel;
-                continue;
-            }
-            if (!(change < 1e-6)) return false;
-            y = best;
-            done += part;
-        }
-        return true;
-    }
-    static Pair moved(const Pair& y, const Real& h, const Pair& rate) { return {y.V + h * rate.V, y.u + h * rate.u}; }
 
     // The rate equations over pseudo-time 0..1: flow along s, with gamma' = (n:d)/(2G (1 + k'/3G)).
     struct Flow {
