@@ -56,12 +56,13 @@ void call_vumat(const std::string& name, int points, int ndir, int nshr, int nst
     if (ndir == 3)
         for (std::size_t i = 0; i < columns * block; ++i) stretch[i] += strain[i];
     stress_new.assign(columns * block, 0.0);
+    const std::vector<double> temperature(block, 20.0);
     const std::string cmname = padded(name);
     const int nfield = 1, nprops = static_cast<int>(props.size()), lanneal = 0;
     const double time = 1.0;
     vumat_(&points, &ndir, &nshr, &nstatv, &nfield, &nprops, &lanneal, &time, &time, &time, cmname.data(), zeros.data(),
-           ones.data(), props.data(), ones.data(), strain.data(), zeros.data(), zeros.data(), stretch.data(),
-           stretch.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(),
+           ones.data(), props.data(), ones.data(), strain.data(), zeros.data(), temperature.data(), stretch.data(),
+           stretch.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), temperature.data(),
            stretch.data(), stretch.data(), zeros.data(), stress_new.data(), state_new.data(), intern.data(),
            inelas.data());
 }
