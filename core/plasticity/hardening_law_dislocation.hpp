@@ -115,15 +115,16 @@ class DislocationHardening {
     }
 
     // The densities after the increment, at its constant rate: Runge and Kutta's classical method in equal substeps of
-    // at most 0.02 of resolved shear.
+    // at most 0.02 of resolved shear. Past a shear of 200 the densities are stationary and are left as they are.
     template <class Real>
     [[gnu::noinline]] Densities<Real> evolved(const At<Real>& at, const Real& alpha, const Real& dalpha) const {
-        const Real shear = resolved_ * dalpha;
+        constexpr double stationary_shear = 200.0;
+        const Real shear = min(resolved_ * dalpha, Real(stationary_shear));
         const Real count = max(ceiling(shear * (1.0 / 0.02)), Real(1.0));
         const Mask<Real> flows = dalpha > Real(0.0);
         const Real log_rate = select(flows, quick_log(select(flows, dalpha, Real(1.0))) + at.log_rate_scale, Real(0.0));
         const Real loss = annihilation_ * quick_exp(Real(0.0) - at.inverse_n * log_rate);
-        const Real h = shear / count, dx = dalpha / count;
+        const Real h = shear / count, dx = h * (1.0 / resolved_);
         Densities<Real> r = at.densities;
         const double floor_wall = 1e-12 * wall_, floor_interior = 1e-12 * interior_;
         for (int i = 0;; ++i) {

@@ -149,7 +149,10 @@ class JohnsonCook {
                             (thermal_exponent_ == 1.0 ? 1.0 : quick_pow(below, thermal_exponent_ - 1.0));
         const double per_T = thermal_slope / at.thermal;  // T'/T
         const PlasticWork<double> w = work(at, alpha, dalpha, k, k_end);
-        const double per_R = at.end_ratio_slope / (at.end_ratio * dalpha);  // (dR/d dalpha)/R
+        // (dR/d dalpha)/R; in plane stress the return does not go through solve_along, which notes it.
+        const Ratio<double> r = at.solved ? Ratio<double>{at.end_ratio, at.end_ratio_slope, 0.0}
+                                          : ratio(at, quick_log(std::max(dalpha, 1e-300)));
+        const double per_R = r.slope / (r.value * dalpha);
         HeatSlopes s;
         s.flow_temperature = k_end.value * per_T;
         s.source_strain = w.friction * (1.0 + dalpha * per_R);
