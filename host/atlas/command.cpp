@@ -96,7 +96,8 @@ Sheets element_size_maps(const Subject& s, bool) {
     const auto largest = largest_element(scene, s.library);
     if (!largest) return {};
     std::vector<double> fractions;
-    for (double f = 0.5; f > 0.005; f *= 0.5) fractions.push_back(f);
+    constexpr int halvings = 7;
+    for (int i = 1; i <= halvings; ++i) fractions.push_back(std::ldexp(1.0, -i));
     const auto runs = dissipation_over_size(scene, s.library, s.sample.strain_scale, largest->length, fractions);
     return {element_size_sheet(largest, runs, s.stem("element_size"), s.title("softening over the element size"))};
 }

@@ -67,7 +67,8 @@ std::optional<ErrorMapAxes> usual_axes(const Scenario& scenario, const Library& 
     axes.start = *limit * along;
     axes.along = axes.start;
     axes.across = *limit * across;
-    for (double x = 0; x <= grid_end; x += grid_step) axes.x.push_back(x);
+    const int steps = static_cast<int>(std::floor(grid_end / grid_step + 1e-9));
+    for (int i = 0; i <= steps; ++i) axes.x.push_back(i * grid_step);
     axes.y = axes.x;
     return axes;
 }
