@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
@@ -79,15 +81,26 @@ class Reader {
     Reader(const std::string& path, std::span<const std::byte> bytes) : path_(path), bytes_(bytes) {}
 
     Recording read() {
-        check_file_header();
+        const std::uint64_t complete = check_file_header();
+        const std::uint64_t present = bytes_.size() - sizeof(FileHeader);
+        // Killed while writing, a host leaves a part of a frame. It was not counted: so much may be passed over.
+        std::uint64_t uncounted = present > complete ? present - complete : 0;
         std::size_t offset = sizeof(FileHeader);
-        while (offset < bytes_.size()) {
-            const std::string damage = read_frame(offset);
+        std::string damage;
+        while (damage.empty() && offset < bytes_.size()) {
+            damage = read_frame(offset);
             if (damage.empty()) continue;
+            const std::size_t next = next_frame(offset);
+            if (next - offset > uncounted) break;
+            uncounted -= next - offset;
+            offset = next;
+            damage.clear();
+        }
+        if (damage.empty() && present < complete)
+            damage = fmt::format("{} bytes are missing at the end of the file", complete - present);
+        if (!damage.empty())
             recording_.damage = fmt::format("{} after {} whole calls (byte {} of {})", damage, recording_.calls.size(),
                                             offset, bytes_.size());
-            break;
-        }
         // Frames stand in the order in which the calls ended.
         std::stable_sort(recording_.calls.begin(), recording_.calls.end(),
                          [](const RecordedCall& a, const RecordedCall& b) {
@@ -98,7 +111,8 @@ class Reader {
     }
 
   private:
-    void check_file_header() const {
+    // Returns the bytes of frames that the file must hold.
+    std::uint64_t check_file_header() const {
         FileHeader header;
         if (bytes_.size() < sizeof header) refuse(path_, "too short for a recording");
         std::memcpy(&header, bytes_.data(), sizeof header);
@@ -107,6 +121,15 @@ class Reader {
         if (header.version != format_version)
             refuse(path_,
                    fmt::format("format version {}; this program reads version {}", header.version, format_version));
+        return header.complete;
+    }
+
+    // Where the next frame could begin behind `offset`; the end of the file if nowhere.
+    std::size_t next_frame(std::size_t offset) const {
+        const auto mark = std::bit_cast<std::array<std::byte, sizeof frame_mark>>(frame_mark);
+        const auto rest = bytes_.subspan(offset + 1);
+        return static_cast<std::size_t>(std::search(rest.begin(), rest.end(), mark.begin(), mark.end()) -
+                                        bytes_.begin());
     }
 
     // Moves `offset` behind the frame, or returns what is wrong with it.

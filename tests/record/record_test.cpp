@@ -211,6 +211,23 @@ TEST(Record, AKilledHostLeavesAReadableRecording) {
     EXPECT_TRUE(recording.damage.empty());
 }
 
+TEST(Record, WhatAKilledHostLeftUnfinishedIsPassedOver) {
+    const Directory directory;
+    ASSERT_EQ(shell(directory, "LODE_RECORD=run.rec '" THREADED_HOST "' 1 20").status, 0);
+    const std::string whole = directory.read("run.rec");
+    const std::uint32_t mark = record::frame_mark;
+    const std::string frame_begins(reinterpret_cast<const char*>(&mark), sizeof mark);
+    const std::size_t last = whole.rfind(frame_begins), before_last = whole.rfind(frame_begins, last - 1);
+    for (const std::size_t kept : {1U, 31U, 32U, 500U}) {
+        const std::string part = whole.substr(last, kept);
+        directory.write("tail.rec", whole + part);
+        EXPECT_EQ(read_recording(directory.file("tail.rec"), false).calls.size(), 20U) << kept;
+        // Another process went on behind it.
+        directory.write("middle.rec", whole.substr(0, before_last) + part + whole.substr(before_last));
+        EXPECT_EQ(read_recording(directory.file("middle.rec"), false).calls.size(), 20U) << kept;
+    }
+}
+
 TEST(Record, DamagedAndForeignFilesAreRefused) {
     const Directory directory;
     ASSERT_EQ(shell(directory, "LODE_RECORD=run.rec '" THREADED_HOST "' 1 20").status, 0);
@@ -224,6 +241,9 @@ TEST(Record, DamagedAndForeignFilesAreRefused) {
     expect_refusal("", "too short");
     expect_refusal("This is some other file, not a recording.", "not a recording");
     expect_refusal(whole.substr(0, whole.size() - 7), "ends inside a frame after 19 whole calls");
+    const std::uint32_t mark = record::frame_mark;
+    expect_refusal(whole.substr(0, whole.rfind(std::string(reinterpret_cast<const char*>(&mark), sizeof mark))),
+                   "bytes are missing at the end of the file after 19 whole calls");
     std::string flipped = whole;
     flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
     expect_refusal(flipped, "checksum");

@@ -1,9 +1,10 @@
 // The file that LODE_RECORD writes and `lode rerun` reads. docs/recording.md describes it; version and layout change
 // together.
 //
-// A file is a header and frames, all little endian. Frames are appended whole, so that several threads and processes
-// share a file. A session frame opens what one process writes; a material frame gives a number to a material name with
-// its PROPS; each call is one frame with everything that went in and came out.
+// A file is a header and frames, all little endian. Several threads and processes append frames to one file; the header
+// counts the bytes of those that are complete, which tells a host killed while writing from a file that was cut. A
+// session frame opens what one process writes; a material frame gives a number to a material name with its PROPS; each
+// call is one frame with everything that went in and came out.
 #pragma once
 
 #include <array>
@@ -14,13 +15,14 @@
 namespace lode::record {
 
 inline constexpr std::array<char, 8> file_mark = {'L', 'O', 'D', 'E', 'R', 'E', 'C', '\n'};
-inline constexpr std::uint32_t format_version = 1;
+inline constexpr std::uint32_t format_version = 2;
 inline constexpr std::uint32_t frame_mark = 0x464C4543u;
 
 struct FileHeader {
     std::array<char, 8> mark = file_mark;
     std::uint32_t version = format_version;
     std::uint32_t byte_order = 0x01020304u;
+    std::uint64_t complete = 0;  // bytes of the frames that were appended completely
 };
 
 enum class FrameKind : std::uint32_t { session = 1, material = 2, umat = 3, vumat = 4 };
@@ -33,7 +35,7 @@ struct FrameHeader {
     std::uint32_t size = 0;      // bytes that follow
     std::uint32_t checksum = 0;  // CRC-32 of this header with checksum 0 and of what follows
 };
-static_assert(sizeof(FileHeader) == 16 && sizeof(FrameHeader) == 32);
+static_assert(sizeof(FileHeader) == 24 && sizeof(FrameHeader) == 32);
 
 enum class Outcome : std::uint32_t {
     returned = 0,

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -53,7 +54,7 @@ Writer::Writer(const Request& request, std::string_view library, std::string_vie
     const FileHeader own;
     std::string reason;
     if (fstat(file_, &status) != 0) reason = std::strerror(errno);
-    else if (status.st_size == 0) put(&own, sizeof own);
+    else if (status.st_size == 0) append(&own, sizeof own);
     else {
         FileHeader found;
         if (pread(file_, &found, sizeof found, 0) != static_cast<ssize_t>(sizeof found) || found.mark != own.mark)
@@ -66,6 +67,8 @@ Writer::Writer(const Request& request, std::string_view library, std::string_vie
         close(file_);
         refuse(file_name_, reason);
     }
+    // A descriptor of its own: what is written through one with O_APPEND lands at the end, wherever it was meant to go.
+    header_ = open(file_name_.c_str(), O_RDWR | O_CLOEXEC);
     Bytes frame;
     frame.append(FrameHeader{});
     frame.append(static_cast<std::int32_t>(getpid()));
@@ -79,6 +82,7 @@ Writer::Writer(const Request& request, std::string_view library, std::string_vie
 
 Writer::~Writer() {
     flush();
+    if (header_ >= 0) close(header_);
     if (file_ >= 0) close(file_);
 }
 
@@ -141,15 +145,26 @@ void Writer::flush() {
 }
 
 void Writer::put(const void* data, std::size_t size) {
-    if (file_ < 0) return;
+    if (!append(data, size)) return;
+    // Two processes at once may count too little, which only makes the reader more lenient; never too much.
+    constexpr off_t place = offsetof(FileHeader, complete);
+    std::uint64_t complete = 0;
+    if (pread(header_, &complete, sizeof complete, place) != static_cast<ssize_t>(sizeof complete)) return;
+    complete += size;
+    [[maybe_unused]] const ssize_t counted = pwrite(header_, &complete, sizeof complete, place);
+}
+
+bool Writer::append(const void* data, std::size_t size) {
+    if (file_ < 0) return false;
     ssize_t written = 0;
     do written = ::write(file_, data, size);
     while (written < 0 && errno == EINTR);
-    if (written == static_cast<ssize_t>(size)) return;
+    if (written == static_cast<ssize_t>(size)) return true;
     std::fprintf(stderr, "Lode: WARNING: LODE_RECORD: writing to %s failed (%s); the recording ends here\n",
                  file_name_.c_str(), written < 0 ? std::strerror(errno) : "the disk is full");
     close(file_);
     file_ = -1;
+    return false;
 }
 
 }  // namespace lode::record

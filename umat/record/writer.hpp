@@ -63,11 +63,13 @@ class Writer {
 
   private:
     void seal(FrameKind kind, std::uint64_t sequence, Bytes& frame) const;
-    void put(const void* data, std::size_t size);
+    void put(const void* data, std::size_t size);     // a frame, counted in the file header
+    bool append(const void* data, std::size_t size);  // false, and no more is written, if it failed
 
     Selection selection_;
     std::string file_name_;
     int file_ = -1;
+    int header_ = -1;  // the same file, to count in its header
     std::uint64_t session_;
     std::mutex mutex_;
     std::map<std::string, std::uint32_t> materials_;  // by the bytes of their frames
