@@ -211,7 +211,7 @@ struct IsoSoftening {
 
         const Mask<Real> damaging = step.cracks || (!intact && stage < Real(1.5));
         std::conditional_t<wants_tangent<T>, DamageRates<Update::m>, NoRates> rates;
-        const auto damage = [&](const auto& q_old, const auto& q) __attribute__((always_inline)) {
+        const auto damage = [&](const auto& q_old, const auto& q) LODE_INLINE_LAMBDA {
             if constexpr (Update::m > 1)
                 if (depends_on_pressure<kind>()) {
                     const auto p = crack_pressure(step, crack_update.old.strain[0], law[1]);

@@ -202,7 +202,7 @@ struct OrthoSoftening {
 
         const Mask<Real> damaging = onset.cracks || (!intact && stage < Real(1.5));
         std::conditional_t<wants_tangent<T>, DamageRates<Update::m>, NoRates> rates;
-        const auto damage = [&](const auto& q_old, const auto& q) __attribute__((always_inline)) {
+        const auto damage = [&](const auto& q_old, const auto& q) LODE_INLINE_LAMBDA {
             return crack.damage(q_old, q, damaging, crack_update.law, NoPressure{}, crack_update.now, rates);
         };
         CrackLinearisation<kind> linear;

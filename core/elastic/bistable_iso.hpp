@@ -430,7 +430,7 @@ struct BistableIso : BistableIsoDescription {
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        specialise([&](const auto& k) __attribute__((always_inline)) { k.update(increment, point, tangent); });
+        specialise([&](const auto& k) LODE_INLINE_LAMBDA { k.update(increment, point, tangent); });
     }
 
   private:

@@ -131,7 +131,7 @@ struct MooneyRivlin {
         if constexpr (wants_tangent<T>) {
             set_tangent_of_kind<kind>(
                 tangent, point.stress, residual.thermal_expansion != 0.0,
-                [&](auto& full) __attribute__((always_inline)) { set_tangent(k, v, inverse2, full); },
+                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent(k, v, inverse2, full); },
                 [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
         }
 

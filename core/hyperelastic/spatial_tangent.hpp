@@ -93,7 +93,7 @@ LODE_INLINE void add_dyad(Tangent<kind>& tangent, double factor, const Stress<ki
 // C += factor [A (x) A - (D -> A D A)] of a symmetric A: all entries are cofactors of A, or zero.
 template <AnalysisKind kind>
 LODE_INLINE void add_cofactors(Tangent<kind>& c, double factor, const Stress<kind, double>& a) {
-    const auto add = [&c](int i, int j, double x) __attribute__((always_inline)) {
+    const auto add = [&c](int i, int j, double x) LODE_INLINE_LAMBDA {
         c(i, j) += x;
         if (i != j) c(j, i) += x;
     };

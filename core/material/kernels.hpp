@@ -115,7 +115,7 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallSt
 template <class Model, AnalysisKind kind>
 void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
     specialise(
-        *static_cast<const Model*>(material), [&](const auto& kernel) __attribute__((always_inline)) {
+        *static_cast<const Model*>(material), [&](const auto& kernel) LODE_INLINE_LAMBDA {
             umat_point<kind>(kernel, a, status);
         });
 }
@@ -326,7 +326,7 @@ void vumat_call(const void* material, const VumatArguments& a, CallStatus& statu
     constexpr bool finite_strain = (Model::description.traits & LODE_FINITE_STRAIN) != 0;
     specialise(
         model, [&](const auto& kernel)
-                   __attribute__((always_inline)) { vumat_block<kind, finite_strain>(kernel, a, status); });
+                   LODE_INLINE_LAMBDA { vumat_block<kind, finite_strain>(kernel, a, status); });
 }
 
 // stepTime = totalTime = 0: the host probes with made-up strains. Elastic answer, no history (conventions page).

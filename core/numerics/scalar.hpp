@@ -9,8 +9,15 @@
 #include <type_traits>
 #include <xsimd/xsimd.hpp>
 
-// For what must end up inside its caller, so that a material point lives in registers.
+// For what must end up inside its caller, so that a material point lives in registers. Instrumented code, which takes
+// minutes a file if it is forced together, is left to the compiler.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LODE_INLINE inline
+#define LODE_INLINE_LAMBDA
+#else
 #define LODE_INLINE [[gnu::always_inline]] inline
+#define LODE_INLINE_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace lode {
 

@@ -187,7 +187,7 @@ class Update {
         if constexpr (wants_tangent<T>) {
             set_tangent_of_kind<kind>(
                 tangent, point.stress, c.residual.thermal_expansion != 0.0,
-                [&](auto& t) __attribute__((always_inline)) { set_tangent(k, v, inverse2, w, g_star, t); },
+                [&](auto& t) LODE_INLINE_LAMBDA { set_tangent(k, v, inverse2, w, g_star, t); },
                 [&](const auto& t) { return isotropic_thermal_stress(c.residual.thermal_expansion, t, stress); });
         }
 
@@ -305,7 +305,7 @@ struct ViscoHyper {
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        specialise([&](const auto& k) __attribute__((always_inline)) {
+        specialise([&](const auto& k) LODE_INLINE_LAMBDA {
             k.prepared(increment.time_increment).template update<kind, Real>(increment, point, tangent);
         });
     }

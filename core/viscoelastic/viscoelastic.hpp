@@ -421,7 +421,7 @@ struct Viscoelastic {
 
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        specialise([&](const auto& k) __attribute__((always_inline)) {
+        specialise([&](const auto& k) LODE_INLINE_LAMBDA {
             k.prepared(increment.time_increment).template update<kind, Real>(increment, point, tangent);
         });
     }
