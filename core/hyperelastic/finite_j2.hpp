@@ -177,15 +177,12 @@ struct Plasticity {
         const double theta = inverse_J * (1.0 - r.share);
         auto stretching = r.s_trial;
         add_to_normals(stretching, 3, r.mubar);
-        set_stretching_tangent(c, theta, stretching, volumetric - (2.0 / 3.0) * theta * r.mubar);
-        const auto coupling = (-2.0 / 3.0 * theta) * r.s_trial;
-        if (rate == nullptr) {
-            add_volume_coupling(c, coupling);
-            return;
-        }
+        set_coupled_tangent(c, theta * stretching, volumetric - (2.0 / 3.0) * theta * r.mubar,
+                            (-2.0 / 3.0 * theta) * r.s_trial, 0.0);
+        if (rate == nullptr) return;
         for (int j = 0; j < n; ++j) {
-            const double along = inverse_J * rate->a[j] - (j < 3 ? (2.0 / 3.0) * theta : 0.0);
-            for (int i = 0; i < n; ++i) c(i, j) += along * r.s_trial[i] + (i < 3 ? coupling[j] : 0.0);
+            const double along = inverse_J * rate->a[j];
+            for (int i = 0; i < n; ++i) c(i, j) += along * r.s_trial[i];
         }
     }
 

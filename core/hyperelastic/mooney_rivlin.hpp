@@ -116,8 +116,11 @@ struct MooneyRivlin {
         const Real inverse2 = square(reciprocal_cbrt(v.J)), c = v.J * inverse2;  // J^(-2/3)
         const Real mean = dilatation.derivative(v);
         const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
-        auto stress = g1 * k.b;
-        if (shear2 != 0.0) stress = g2 * ((1.0 + trace(k.b)) * k.b - square_of(k.b)) + stress;
+        auto stress = g1 * k.b, second = k.b;  // I1 B - B^2 = (2 + tr b) I + second
+        if (shear2 != 0.0) {
+            assign(second, (1.0 + trace(k.b)) * k.b - square_of(k.b));
+            stress += g2 * second;
+        }
         stress = deviator(stress);
         add_to_normals(stress, 3, mean);
 
@@ -131,7 +134,7 @@ struct MooneyRivlin {
         if constexpr (wants_tangent<T>) {
             set_tangent_of_kind<kind>(
                 tangent, point.stress, residual.thermal_expansion != 0.0,
-                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent(k, v, inverse2, full); },
+                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent(k, v, inverse2, second, full); },
                 [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
         }
 
@@ -211,22 +214,25 @@ struct MooneyRivlin {
     //         + [2/9 (G1 I1bar + 4 G2 I2bar) + J (J U')'] 1 (x) 1 + 2 G2 [Bbar (x) Bbar - (D -> Bbar D Bbar)]
     template <AnalysisKind kind, AnalysisKind full>
     LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v, double inverse2,
-                                 Tangent<full>& c) const {
+                                 const Stress<full, double>& second, Tangent<full>& c) const {
         auto b = k.b;
         add_to_normals(b, 3, 1.0);
         b = inverse2 * b;
         const double i1 = trace(b), g1 = shear1 * v.inverse, g2 = shear2 * v.inverse;
-        auto stretching = g1 * b, coupling = (-2.0 / 3.0 * g1) * b;
-        double volumetric = 2.0 / 9.0 * g1 * i1 + dilatation.stiffness(v);
+        const auto stretching = g1 * b, coupling = (-2.0 / 3.0 * g1) * b;
+        const double volumetric = 2.0 / 9.0 * g1 * i1 + dilatation.stiffness(v);
         if (shear2 != 0.0) {
-            const auto m = i1 * b - square_of(b);
-            stretching = stretching + g2 * m;
-            coupling = coupling - (4.0 / 3.0 * g2) * m;
-            volumetric += 4.0 / 9.0 * g2 * trace(m);  // tr m = 2 I2bar
+            auto m = second;
+            add_to_normals(m, 3, 2.0 + trace(k.b));
+            m = square(inverse2) * m;
+            const double twice_i2 = trace(m);
+            auto cofactors = (-2.0 * g2) * m;  // cof Bbar = I2bar I - m (Cayley and Hamilton)
+            add_to_normals(cofactors, 3, g2 * twice_i2);
+            set_coupled_tangent(c, stretching + g2 * m, volumetric + 4.0 / 9.0 * g2 * twice_i2,
+                                coupling - (4.0 / 3.0 * g2) * m, cofactors);
+            return;
         }
-        set_stretching_tangent(c, 1.0, stretching, volumetric);
-        add_volume_coupling(c, coupling);
-        if (shear2 != 0.0) add_cofactors(c, 2.0 * g2, b);
+        set_coupled_tangent(c, stretching, volumetric, coupling, 0.0);
     }
 };
 

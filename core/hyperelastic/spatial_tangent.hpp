@@ -1,6 +1,8 @@
 // Matrix forms of the Jaumann tangent of hyperelastic laws (page 50, section 1.5). Columns are engineering strains.
 #pragma once
 
+#include <type_traits>
+
 #include "lode/material/point.hpp"
 #include "lode/tensor/kinematics.hpp"
 
@@ -34,6 +36,40 @@ LODE_INLINE void set_stretching_tangent(Tangent<kind>& c, double factor, const S
 }
 
 // The following serve the kinds with three normal components; plane stress is condensed from them.
+
+// C = M(A) + volumetric 1 (x) 1 + 1 (x) B + B (x) 1 + [X (x) X - (D -> X D X)], the last of which comes as k = cof X,
+// of which it consists, or as the number 0. Every entry is formed once: adding to what was just stored waits for the
+// store.
+template <AnalysisKind kind, class Cofactors>
+LODE_INLINE void set_coupled_tangent(Tangent<kind>& c, const Stress<kind, double>& a, double volumetric,
+                                     const Stress<kind, double>& b, const Cofactors& k) {
+    const auto cofactor = [&k]([[maybe_unused]] int i) {
+        if constexpr (std::is_same_v<Cofactors, Stress<kind, double>>) return k[i];
+        else return k;
+    };
+    const auto set = [&c](int i, int j, double x) LODE_INLINE_LAMBDA { c(i, j) = c(j, i) = x; };
+    for (int i = 0; i < 3; ++i) c(i, i) = volumetric + 2.0 * (a[i] + b[i]);
+    set(0, 1, volumetric + (b[0] + b[1]) + cofactor(2));
+    set(0, 2, volumetric + (b[0] + b[2]) + cofactor(1));
+    set(1, 2, volumetric + (b[1] + b[2]) + cofactor(0));
+    set(0, 3, a[3] + b[3]);
+    set(1, 3, a[3] + b[3]);
+    set(2, 3, b[3] - cofactor(3));
+    set(3, 3, 0.5 * (a[0] + a[1] - cofactor(2)));
+    if constexpr (kind == AnalysisKind::solid) {
+        set(0, 4, a[4] + b[4]);
+        set(2, 4, a[4] + b[4]);
+        set(1, 4, b[4] - cofactor(4));
+        set(1, 5, a[5] + b[5]);
+        set(2, 5, a[5] + b[5]);
+        set(0, 5, b[5] - cofactor(5));
+        set(4, 4, 0.5 * (a[0] + a[2] - cofactor(1)));
+        set(5, 5, 0.5 * (a[1] + a[2] - cofactor(0)));
+        set(3, 4, 0.5 * (a[5] + cofactor(5)));
+        set(3, 5, 0.5 * (a[4] + cofactor(4)));
+        set(4, 5, 0.5 * (a[3] + cofactor(3)));
+    }
+}
 
 namespace spatial_detail {
 
@@ -72,49 +108,12 @@ LODE_INLINE void add_sandwich(Tangent<kind>& tangent, double factor, const Stres
         spatial_detail::add_to_both(tangent, row, column, 0.5 * factor * (a(i, k) * a(j, l) + a(i, l) * a(j, k)));
     });
 }
-// C += 1 (x) A + A (x) 1.
-template <AnalysisKind kind>
-LODE_INLINE void add_volume_coupling(Tangent<kind>& tangent, const Stress<kind, double>& a) {
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < components(kind); ++i) {
-            tangent(i, j) += a[i];
-            tangent(j, i) += a[i];
-        }
-}
 // C += factor A (x) A.
 template <AnalysisKind kind>
 LODE_INLINE void add_dyad(Tangent<kind>& tangent, double factor, const Stress<kind, double>& a) {
     for (int j = 0; j < components(kind); ++j) {
         const double scaled = factor * a[j];
         for (int i = 0; i < components(kind); ++i) tangent(i, j) += scaled * a[i];
-    }
-}
-
-// C += factor [A (x) A - (D -> A D A)] of a symmetric A: all entries are cofactors of A, or zero.
-template <AnalysisKind kind>
-LODE_INLINE void add_cofactors(Tangent<kind>& c, double factor, const Stress<kind, double>& a) {
-    const auto add = [&c](int i, int j, double x) LODE_INLINE_LAMBDA {
-        c(i, j) += x;
-        if (i != j) c(j, i) += x;
-    };
-    constexpr bool solid = kind == AnalysisKind::solid;
-    const double a13 = solid ? a[4 % components(kind)] : 0.0, a23 = solid ? a[5 % components(kind)] : 0.0;
-    const double c11 = factor * (a[1] * a[2] - a23 * a23), c22 = factor * (a[0] * a[2] - a13 * a13);
-    const double c33 = factor * (a[0] * a[1] - a[3] * a[3]), c12 = factor * (a13 * a23 - a[3] * a[2]);
-    add(0, 1, c33);
-    add(0, 2, c22);
-    add(1, 2, c11);
-    add(2, 3, -c12);
-    add(3, 3, -0.5 * c33);
-    if constexpr (solid) {
-        const double c13 = factor * (a[3] * a23 - a13 * a[1]), c23 = factor * (a[3] * a13 - a[0] * a23);
-        add(1, 4, -c13);
-        add(0, 5, -c23);
-        add(4, 4, -0.5 * c22);
-        add(5, 5, -0.5 * c11);
-        add(3, 4, 0.5 * c23);
-        add(3, 5, 0.5 * c13);
-        add(4, 5, 0.5 * c12);
     }
 }
 

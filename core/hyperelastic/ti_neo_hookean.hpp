@@ -195,9 +195,8 @@ struct TiNeoHookean : TiNeoHookeanDescription {
                                  const Fibre<kind, double>& fibre, Tangent<full>& c) const {
         auto b = k.b;
         add_to_normals(b, 3, 1.0);
-        const auto stretching = shear * b + (4.0 * along) * fibre.aa - al * fibre.a_ba;
-        set_stretching_tangent(c, v.inverse, stretching, dilatation.stiffness(v));
-        add_volume_coupling(c, (4.0 * be * v.inverse) * fibre.aa);
+        const auto stretching = v.inverse * (shear * b + (4.0 * along) * fibre.aa - al * fibre.a_ba);
+        set_coupled_tangent(c, stretching, dilatation.stiffness(v), (4.0 * be * v.inverse) * fibre.aa, 0.0);
         add_dyad(c, 8.0 * ga * v.inverse, fibre.aa);
         if (al != 0.0) add_two_sided(c, b, (-2.0 * al * v.inverse) * fibre.aa);
     }

@@ -104,7 +104,8 @@ template <AnalysisKind kind, class Real>
 inline Kinematics<kind, Real> complete(const Matrix3<Real>& h, const Real& determinant_of_f) {
     Kinematics<kind, Real> k;
     k.h = h;
-    k.b = left_cauchy_green_minus_identity<kind>(h);
+    const auto b = left_cauchy_green_minus_identity<kind>(h);
+    assign(k.b, b);
     k.j = jacobian_minus_one<kind>(h);
     k.jacobian = select(k.j > Real(-0.5), 1.0 + k.j, determinant_of_f);
     return k;

@@ -31,6 +31,12 @@ concept VoigtVector = requires(V a) {
     a.v;
 };
 
+// Component by component: copied as a block, a tensor that was just computed goes through memory, where loads wait for
+// stores of another width.
+template <VoigtVector V>
+LODE_INLINE void assign(V& to, const V& from) {
+    for (int i = 0; i < V::size(); ++i) to[i] = from[i];
+}
 template <VoigtVector V>
 inline V operator+(const V& a, const V& b) {
     V r;

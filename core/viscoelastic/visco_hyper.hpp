@@ -262,18 +262,18 @@ class Update {
         add_to_normals(b, 3, 1.0);
         b = inverse2 * b;
         const double g1 = c.G1 * g_star * v.inverse, g2 = c.G2 * g_star * v.inverse;
-        auto stretching = g1 * b + v.inverse * w;
-        auto coupling = (-2.0 / 3.0) * stretching;
-        double volumetric = 2.0 / 9.0 * trace(stretching) + c.dilatation.stiffness(v);
+        const auto stretching = g1 * b + v.inverse * w;
+        const auto coupling = (-2.0 / 3.0) * stretching;
+        const double volumetric = 2.0 / 9.0 * trace(stretching) + c.dilatation.stiffness(v);
         if (c.G2 != 0.0) {
             const auto m = trace(b) * b - square_of(b);
-            stretching = stretching + g2 * m;
-            coupling = coupling - (4.0 / 3.0 * g2) * m;
-            volumetric += 4.0 / 9.0 * g2 * trace(m);
+            auto cofactors = (-2.0 * g2) * m;  // cof Bbar = I2bar I - m, tr m = 2 I2bar
+            add_to_normals(cofactors, 3, g2 * trace(m));
+            set_coupled_tangent(tangent, stretching + g2 * m, volumetric + 4.0 / 9.0 * g2 * trace(m),
+                                coupling - (4.0 / 3.0 * g2) * m, cofactors);
+            return;
         }
-        set_stretching_tangent(tangent, 1.0, stretching, volumetric);
-        add_volume_coupling(tangent, coupling);
-        if (c.G2 != 0.0) add_cofactors(tangent, 2.0 * g2, b);
+        set_coupled_tangent(tangent, stretching, volumetric, coupling, 0.0);
     }
 };
 
