@@ -14,7 +14,7 @@ struct CamClay {
 
     explicit CamClay(const Properties& p)
         : elasticity(p[cam_clay::P_REF], p[cam_clay::KAPPA], p[cam_clay::MU0], p[cam_clay::ALPHA]),
-          plasticity(elasticity, p[cam_clay::LAMBDA], p[cam_clay::M]),
+          plasticity(elasticity, p[cam_clay::LAMBDA], p[cam_clay::M], p.code(cam_clay::METHOD)),
           substeps{plasticity, p.code(cam_clay::NSUB), p[cam_clay::STOL]},
           initial_state(p, elasticity),
           biot(p[cam_clay::BIOT]),
@@ -123,6 +123,11 @@ struct CamClay {
     LODE_INLINE bool accept(const Increment<kind, Real>& increment, const CamClayPath<kind, Real>& end,
                             const Mask<Real>& clipped, Point<kind, Real>& point) const {
         const CamClayStep<Real>& last = end.last;
+        if (any(end.failed)) [[unlikely]] {
+            point.fail(end.failed, "CAM_CLAY: the textbook Newton iteration has found no solution (method 0 does)",
+                       0.25);
+            return false;
+        }
         Real pore_stress = Real(0.0);
         if (biot != 0.0) pore_stress = biot * increment.field_end(1);
         const Mask<Real> bad = !is_finite(Real(last.p + last.q + end.pc + pore_stress));

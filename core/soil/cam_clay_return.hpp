@@ -3,6 +3,8 @@
 #pragma once
 
 #include "lode/soil/cam_clay_curve.hpp"
+#include "lode/soil/cam_clay_description.hpp"
+#include "lode/soil/cam_clay_newton.hpp"
 
 namespace lode {
 
@@ -15,6 +17,7 @@ struct CamClayStep {
     Real dgamma, h;           // h = df/dp = 2p - pc
     Real shear_ratio;         // dev eps^e = shear_ratio * its trial value
     Mask<Real> plastic;
+    Mask<Real> failed;  // the textbook Newton has found no solution
 };
 
 // The linearised step: d(v, s) for changes of (v_tr, s_tr, ln pc_n), and G = mu/(1 + 6 dgamma mu/M^2).
@@ -24,7 +27,11 @@ struct CamClayLinearStep {
 };
 
 struct CamClayReturn : CamClayCurve {
-    using CamClayCurve::CamClayCurve;
+    int method = cam_clay::SCALAR_EQUATION;
+
+    CamClayReturn(const CamClayElasticity& elastic, double lambda, double slope,
+                  int solution = cam_clay::SCALAR_EQUATION)
+        : CamClayCurve(elastic, lambda, slope), method(solution) {}
 
     // `over` = v_tr - v_max in a form without cancellation (step 2).
     template <class Real>
@@ -32,10 +39,11 @@ struct CamClayReturn : CamClayCurve {
         return (v_trial * elasticity.inverse_kappa - log_pc) * inverse_w;
     }
 
-    // Steps 2 to 8. `log_pc` = ln(pc/p_ref) at the start.
+    // Steps 2 to 8. `log_pc` = ln(pc/p_ref) at the start, `v_start` and `s_start` the elastic invariants there (only
+    // Newton from the old state asks for them).
     template <class Real>
-    LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc,
-                                       const Real& log_pc) const {
+    LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc, const Real& log_pc,
+                                       const Real& v_start = Real(0.0), const Real& s_start = Real(0.0)) const {
         const Real zero(0.0);
         const Real over = overshoot(v_trial, log_pc);
         const Real v_max = (v_trial * inverse_theta + log_pc) * inverse_w;
@@ -56,6 +64,7 @@ struct CamClayReturn : CamClayCurve {
         end.dgamma = zero;
         end.shear_ratio = Real(1.0);
         end.h = zero;
+        end.failed = Mask<Real>(false);
         const Real inverse_pc = 1.0 / pc;
         const Real p_relative = end.p * inverse_pc, q_relative = end.q * inverse_pc;
         end.plastic = !(q_relative * q_relative * inverse_M_square + p_relative * (p_relative - 1.0) <= Real(1e-10));
@@ -65,7 +74,17 @@ struct CamClayReturn : CamClayCurve {
         const Mask<Real> isotropic = s_trial <= Real(1e-15);
         const Mask<Real> sheared = end.plastic && !isotropic;
         Real delta = zero, s = zero, A = A_top, r = zero;
-        if (any(sheared)) {
+        if (any(sheared) && method != cam_clay::SCALAR_EQUATION) [[unlikely]] {
+            const bool from_trial = method == cam_clay::NEWTON_FROM_TRIAL;
+            const CamClayNewtonResult<Real> root = solve_by_full_newton<Real>(
+                *this, v_trial, s_trial, pc, from_trial ? v_trial : v_start, from_trial ? s_trial : s_start, sheared);
+            end.failed = sheared && !root.found;
+            const Mask<Real> found = sheared && root.found;
+            delta = select(found, v_max - root.v, zero);
+            s = select(found, root.s, zero);
+            A = select(found, elasticity.volumetric_pressure(select(found, root.v, v_top)), A);
+            r = select(found, expm1(w * delta), zero);
+        } else if (any(sheared)) {
             const Real r_top = select(over < zero, pc / A_top - 1.0, zero);
             const CurvePoint<Real> at =
                 solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared);

@@ -21,6 +21,7 @@ struct CamClayPath {
     Real v, pc, log_pc;
     Stress<kind, Real> e;
     Real compaction = Real(0.0), plastic_shear = Real(0.0), dissipation = Real(0.0), zone = Real(0.0);
+    Mask<Real> failed = Mask<Real>(false);
     CamClayStep<Real> last;
 };
 
@@ -44,10 +45,13 @@ struct CamClaySubsteps {
     // One backward Euler step over the strain (dv, de).
     template <AnalysisKind kind, class Real>
     LODE_INLINE void advance(CamClayPath<kind, Real>& path, const Real& dv, const Stress<kind, Real>& de) const {
+        Real s_start(0.0);
+        if (plasticity.method == cam_clay::NEWTON_FROM_START) s_start = shear_invariant(path.e);
         path.e = path.e + de;
         const CamClayStep<Real> step =
-            plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc);
+            plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc, path.v, s_start);
         path.last = step;
+        path.failed = path.failed || step.failed;
         path.v = step.v;
         path.pc = step.pc;
         path.log_pc = step.log_pc;
@@ -160,6 +164,7 @@ struct CamClaySubsteps {
             r.*member = select(keep, kept.*member, other.*member);
         for (const auto member : {&Step::s, &Step::A, &Step::mu, &Step::p, &Step::q})
             r.last.*member = select(keep, kept.last.*member, other.last.*member);
+        r.failed = (keep && kept.failed) || (!keep && other.failed);
         for (int i = 0; i < components(kind); ++i) r.e[i] = select(keep, kept.e[i], other.e[i]);
         return r;
     }

@@ -19,6 +19,7 @@
 #include "element_size.hpp"
 #include "ellipticity.hpp"
 #include "error_map.hpp"
+#include "failure_rate.hpp"
 #include "limit_point.hpp"
 #include "rotation.hpp"
 #include "time_step.hpp"
@@ -124,11 +125,31 @@ Sheets limit_point_maps(const Subject& s, bool) {
     return {limit_point_sheet(*limit, s.stem("limit_point"), s.title("stress control up to a limit point"))};
 }
 
+// With a single algorithm that is never at a loss there is nothing to see.
+Sheets failure_maps(const Subject& s, bool quiet) {
+    if (s.library.umat() == nullptr) return {};
+    const Scenario scene = s.scenario();
+    std::vector<Algorithm> algorithms;
+    for (int i = 0; i < s.model.algorithm_count; ++i)
+        algorithms.push_back({s.model.algorithms[i].name, with_algorithm(scene, s.model, s.model.algorithms[i])});
+    std::vector<double> sizes;
+    for (int i = -4; i <= 3; ++i) sizes.push_back(s.sample.strain_scale * std::pow(10.0, 0.5 * i));
+    constexpr int states = 300;
+    Meter meter("atlas: " + s.stem("failures"), states, quiet);
+    const auto rates = failure_rates(scene, algorithms, s.library, s.sample.strain_scale, sizes, states, &meter);
+    const auto never = [](const AlgorithmRates& a) {
+        return std::all_of(a.rates.begin(), a.rates.end(), [](const FailureRate& r) { return r.cut == 0; });
+    };
+    if (rates.empty() || (rates.size() == 1 && never(rates.front()))) return {};
+    return {failure_sheet(rates, s.stem("failures"), s.title("random increments that are refused"))};
+}
+
 struct MapKind {
     const char* name;
     Sheets (*make)(const Subject&, bool quiet);
 };
-constexpr std::array<MapKind, 6> map_kinds{{{"error", error_maps},
+constexpr std::array<MapKind, 7> map_kinds{{{"error", error_maps},
+                                            {"failures", failure_maps},
                                             {"time_step", time_step_maps},
                                             {"element_size", element_size_maps},
                                             {"ellipticity", ellipticity_maps},

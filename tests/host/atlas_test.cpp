@@ -6,11 +6,13 @@
 #include "atlas/element_size.hpp"
 #include "atlas/ellipticity.hpp"
 #include "atlas/error_map.hpp"
+#include "atlas/failure_rate.hpp"
 #include "atlas/limit_point.hpp"
 #include "atlas/rotation.hpp"
 #include "atlas/time_step.hpp"
 #include "cards.hpp"
 #include "study.hpp"
+#include "study/variants.hpp"
 
 namespace lode::host::test {
 namespace {
@@ -70,6 +72,27 @@ TEST(ErrorMap, ReproducesThePageOfPerfectPlasticity) {
 }
 
 // The same page: largest and mean error over the grid, n equal substeps.
+TEST(FailureRate, TheTextbookNewtonOfCamClayFailsWhereTheDefaultDoesNot) {
+    const auto [model, sample] = samples_named(library(), "CAM_CLAY-CLAY").front();
+    const Scenario scene = sample_scenario(*model, *sample, Kind::solid);
+    std::vector<Algorithm> algorithms;
+    for (int i = 0; i < model->algorithm_count; ++i)
+        algorithms.push_back({model->algorithms[i].name, with_algorithm(scene, *model, model->algorithms[i])});
+    ASSERT_EQ(algorithms.size(), 5U);
+    const auto rates =
+        failure_rates(scene, algorithms, library(), sample->strain_scale, {1e-3, 0.2, 2.0}, 100, nullptr);
+    ASSERT_EQ(rates.size(), 5U);
+    for (const AlgorithmRates& algorithm : rates) {
+        ASSERT_EQ(algorithm.rates.size(), 3U);
+        EXPECT_EQ(algorithm.rates[0].tried, 100);
+        EXPECT_EQ(algorithm.rates[0].cut, 0) << algorithm.name;
+    }
+    for (const std::size_t default_and_substeps : {0U, 1U, 2U}) EXPECT_EQ(rates[default_and_substeps].rates[1].cut, 0);
+    EXPECT_GT(rates[4].rates[1].cut, 5) << "page 70: a fifth of increments of this size fail from the old state";
+    // Hardly any direction of this norm stays below the guard of 0.5 in each component.
+    EXPECT_GT(rates[0].rates[2].cut, 90);
+}
+
 TEST(ErrorMap, FallsWithSubstepsAsThePageSays) {
     LODE_NEEDS("ISO_PLASTIC");
     const Scenario exact = material("ISO_PLASTIC-X", with_method(perfect, 1));

@@ -740,6 +740,74 @@ TEST(CamClay, RandomIncrementsNeverFail) {
     EXPECT_GT(yielded, 30000);
 }
 
+// The source's Newton on three unknowns, from such states: how often it fails ("Cost and accuracy"), and that its
+// answers are those of the scalar equation.
+TEST(CamClay, F6_TextbookNewtonFailsAsThePageSays) {
+    struct Bin {
+        double smallest, largest;
+        double page[2];  // from the trial state, from the old one
+        int plastic, failed[2];
+    };
+    Bin bins[] = {{1e-4, 1e-3, {0.001, 0.013}, 0, {}},
+                  {1e-3, 1e-2, {0.001, 0.049}, 0, {}},
+                  {1e-2, 1e-1, {0.025, 0.20}, 0, {}},
+                  {0.1, 0.3, {0.12, 0.37}, 0, {}}};
+    RandomClay random;
+    int others = 0, found = 0;
+    for (int material = 0; material < 4000; ++material) {
+        Numbers props = random.props();
+        props.resize(14, 0.0);
+        props[11] = 1;
+        std::vector<CamClay> models;
+        for (const int method : {0, 1, 2}) {
+            props[13] = method;
+            models.emplace_back(
+                Properties(CamClay::description, "CAM_CLAY-RANDOM", props.data(), static_cast<int>(props.size())));
+        }
+        double v = 0.0, s = 0.0, pc_now = 100.0 * props[6], log_pc = std::log(props[6]);
+        for (int i = 0; i < 8; ++i) {
+            Bin& bin = bins[i % 4];
+            const double size = random.log_uniform(bin.smallest, bin.largest), angle = random.uniform(0.0, 6.28318);
+            const double v_trial = v + size * std::cos(angle), s_trial = std::abs(s + size * std::sin(angle));
+            if (log_pc - v_trial / props[1] > 600.0 || std::abs(v_trial) / props[1] > 600.0) continue;
+            const auto step = [&](int method) {
+                return models[static_cast<std::size_t>(method)].plasticity.step<double>(v_trial, s_trial, pc_now,
+                                                                                        log_pc, v, s);
+            };
+            const CamClayStep<double> right = step(0);
+            EXPECT_FALSE(right.failed);
+            if (right.plastic && s_trial > 1e-15) {
+                ++bin.plastic;
+                for (const int method : {1, 2}) {
+                    const CamClayStep<double> tried = step(method);
+                    if (tried.failed) {
+                        ++bin.failed[method - 1];
+                        continue;
+                    }
+                    ++found;
+                    others += std::abs(tried.p - right.p) + std::abs(tried.q - right.q) > 1e-8 * right.pc;
+                }
+            }
+            v = right.v, s = right.s, pc_now = right.pc, log_pc = right.log_pc;
+        }
+    }
+    // The page's population of states is not known in detail, hence the factor of two.
+    for (const Bin& bin : bins)
+        for (const int start : {0, 1}) {
+            const double rate = static_cast<double>(bin.failed[start]) / bin.plastic;
+            std::printf("[ increments of %g to %g, Newton from the %s state: fails in %.2f %% of %d steps ]\n",
+                        bin.smallest, bin.largest, start == 0 ? "trial" : "old", 100 * rate, bin.plastic);
+            if (bin.smallest >= 1e-2) {
+                EXPECT_GT(rate, 0.5 * bin.page[start]);
+                EXPECT_LT(rate, 2.0 * bin.page[start]);
+            } else {
+                EXPECT_LT(rate, start == 0 ? 0.01 : 0.1);
+            }
+        }
+    // Where the equations have several roots (0.6 % of the large steps), it may end in another one.
+    EXPECT_LT(others, 0.01 * found);
+}
+
 // The same through VUMAT, lanes in all kinds of states at once, against UMAT point by point.
 TEST(CamClay, BatchesWithFrozenLanesEqualSinglePoints) {
     RandomClay random;
