@@ -8,6 +8,7 @@
 #include "atlas/command.hpp"
 #include "catalogue.hpp"
 #include "chart/command.hpp"
+#include "check/command.hpp"
 #include "guard.hpp"
 #include "replay/command.hpp"
 #include "rerun/command.hpp"
@@ -23,7 +24,8 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit status: 0 success, 1 bad command line, 2 bad deck, 3 no convergence, 4 refused by the library "
-        "(or XIT), 5 library not loaded, 6 different from the recording");
+        "(or XIT), 5 library not loaded, 6 different from the recording, 7 different from the closed form, "
+        "8 a check failed");
 
     lode::host::ReplayOptions replay_options;
     std::string entry;
@@ -35,6 +37,8 @@ int run(int argc, char** argv) {
                        "Directory for the files (default: the current one)");
     replay->add_option("-i,--interface", entry, "umat or vumat, instead of the deck's choice")
         ->check(CLI::IsMember({"umat", "vumat"}));
+    replay->add_flag("--verify", replay_options.verify,
+                     "Compare manufactured steps with their closed forms, through umat_ and vumat_");
     replay->add_flag("-q,--quiet", replay_options.quiet, "Print errors only");
 
     lode::host::CatalogueOptions catalogue_options;
@@ -78,8 +82,41 @@ int run(int argc, char** argv) {
     rerun->add_option("--element", rerun_options.element, "Element of the point (default: that of the first call)");
     rerun->add_option("--point", rerun_options.point, "Integration point (default: that of the first call)");
     rerun->add_flag("--time", rerun_options.time, "Measure what the calls cost");
+    bool rerun_check = false, rerun_host = false;
+    rerun->add_flag("--check", rerun_check, "Run the checks of `lode check` at the call of --at (default: the last)");
+    rerun->add_flag("--host", rerun_host, "Look for mistakes of the host in the recorded calls");
     rerun->add_flag("--salvage", rerun_options.salvage, "Read a damaged file up to the damage");
     rerun->add_flag("-q,--quiet", rerun_options.quiet, "Print differences and errors only");
+
+    lode::host::CheckOptions check_options;
+    std::string check_entry;
+    CLI::App* const check = app.add_subcommand("check", "Check a UMAT or VUMAT, of this library or of anybody else");
+    check->add_option("library", check_options.library, "Shared object with umat_ or vumat_ (default: liblode.so)");
+    check->add_option("-p,--props", check_options.constants, "Material constants: 210000,0.3")->delimiter(',');
+    check->add_option("-n,--name", check_options.name, "Material name (CMNAME); with --card: which material");
+    check->add_option("-k,--kind", check_options.kinds, "Kinds, e.g. 3d plane_stress (default: 3d; of a model: all)");
+    check->add_option("--nstatv", check_options.state_variables, "Number of state variables");
+    check->add_option("--state", check_options.initial_state, "State variables at the beginning: 0,0.01")
+        ->delimiter(',');
+    check->add_option("-c,--card", check_options.card, "Abaqus input file with the material's cards");
+    check->add_option("-m,--model", check_options.model, "KEYWORD or KEYWORD-LABEL of a library that has samples");
+    check->add_flag("--all", check_options.all, "All samples of the library");
+    check->add_option("--strain", check_options.scale,
+                      "A strain (cohesive: separation) at which the material is inelastic (default: found)");
+    check->add_option("--celent", check_options.element_length, "Element length (default: 1)");
+    check->add_option("--temperature", check_options.temperature, "Temperature (default: 0)");
+    check->add_flag("--elastic", check_options.elastic, "The material claims to be elastic: check closed paths");
+    check->add_flag("--unsymmetric", check_options.unsymmetric, "DDSDDE may be unsymmetric");
+    check->add_option("--only", check_options.only, "Names of checks, see --list")->delimiter(',');
+    check->add_option("-i,--interface", check_entry, "umat or vumat alone")->check(CLI::IsMember({"umat", "vumat"}));
+    check->add_option("--time-limit", check_options.seconds, "Seconds for each check (default: 10)")
+        ->check(CLI::Range(0.1, 1e6));
+    check->add_option("--host", check_options.host, "A recording (LODE_RECORD): look for mistakes of the host instead");
+    check->add_flag("--salvage", check_options.salvage, "Read a damaged recording up to the damage");
+    check->add_option("--json", check_options.json, "Write the results to this file");
+    check->add_option("--html", check_options.html, "Write a report with plots to this file");
+    check->add_flag("--list", check_options.list, "List the checks");
+    check->add_flag("-q,--quiet", check_options.quiet, "Print failures only");
 
     lode::host::AtlasOptions atlas_options;
     CLI::App* const atlas = app.add_subcommand("atlas", "Map where the methods of a material fail");
@@ -123,6 +160,26 @@ int run(int argc, char** argv) {
     if (*advise) return static_cast<int>(lode::host::advise(advise_options));
     if (*atlas) return static_cast<int>(lode::host::atlas(atlas_options));
     if (*chart) return static_cast<int>(lode::host::chart(chart_options));
+    if (*check) {
+        if (!check_entry.empty())
+            check_options.entry = check_entry == "umat" ? lode::host::Entry::umat : lode::host::Entry::vumat;
+        return static_cast<int>(lode::host::check(check_options));
+    }
+    if (*rerun && rerun_host) {
+        check_options.host = rerun_options.file;
+        check_options.salvage = rerun_options.salvage;
+        check_options.quiet = rerun_options.quiet;
+        return static_cast<int>(lode::host::check(check_options));
+    }
+    if (*rerun && rerun_check) {
+        lode::host::RecordedCheckOptions recorded;
+        recorded.recording = rerun_options.file;
+        recorded.library = rerun_options.library;
+        recorded.at = rerun_options.at;
+        recorded.salvage = rerun_options.salvage;
+        recorded.quiet = rerun_options.quiet;
+        return static_cast<int>(lode::host::check_recorded(recorded));
+    }
     if (*rerun) return static_cast<int>(lode::host::rerun(rerun_options));
     return static_cast<int>(lode::host::list_models(catalogue_options));
 }

@@ -14,7 +14,9 @@ enum class Status {
     not_converged = 3,
     refused = 4,
     not_loaded = 5,
-    different = 6
+    different = 6,
+    not_verified = 7,
+    failed_check = 8
 };
 
 class Failure : public std::runtime_error {

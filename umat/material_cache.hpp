@@ -49,8 +49,9 @@ class Material {
     Material* next = nullptr;  // in its bucket
 
   private:
-    // A call of memcmp costs more than the whole look-up.
+    // For the usual few constants a call of memcmp costs more than the whole look-up.
     static bool same_bits(const double* a, const double* b, std::size_t n) {
+        if (n > 8) return std::memcmp(a, b, n * sizeof *a) == 0;
         std::uint64_t difference = 0;
         for (std::size_t i = 0; i < n; ++i)
             difference |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "lode/material/properties.hpp"
+#include "lode/numerics/lambert.hpp"
 #include "lode/numerics/root.hpp"
 
 namespace lode {
@@ -273,19 +274,12 @@ class SofteningLaw {
             .last.point;
     }
     // Law 6: with y = (k u)^a and t = d/(1 - d) the condition is y e^(a y) = (k t r)^a, a y = W0(a (k t r)^a) with
-    // Lambert's function. Winitzki's approximation, two steps of Fritsch's fourth-order iteration, and one of Newton
-    // for u itself.
+    // Lambert's function, and one step of Newton for u itself.
     template <class Real>
     LODE_INLINE Softened<Real> solve_by_lambert(const Real& d, const Real& r) const {
         const Real target = max(Real(d * r), Real(1e-300)) / max(Real(1.0 - d), Real(1e-16));
         const Real log_X = std::log(a1_) + a1_ * log(k_ * target);
-        const Real L = select(log_X > Real(30.0), log_X, log1p(exp(min(log_X, Real(30.0)))));
-        Real w = L * (1.0 - log1p(L) / (2.0 + L));
-        for (int i = 0; i < 2; ++i) {
-            const Real z = log_X - log(max(w, Real(1e-300))) - w, next = 1.0 + w;
-            const Real q = 2.0 * next * (next + (2.0 / 3.0) * z);
-            w = w * (1.0 + z / next * (q - z) / (q - 2.0 * z));
-        }
+        const Real w = lambert_w0_of_exponential(log_X);
         const double inverse = 1.0 / a1_;
         const Real near = (1.0 / k_) * pow(max(Real(inverse * w), Real(1e-300)), Real(inverse));
         const Softened<Real> s = curved_of<stretched_exponential>(near);

@@ -3,6 +3,7 @@
 
 #include "lode/damage/softening_axes.hpp"
 #include "lode/damage/softening_crack.hpp"
+#include "lode/damage/softening_size.hpp"
 #include "lode/material/description.hpp"
 
 namespace lode::softening_state {
@@ -58,46 +59,11 @@ static_assert(count_of(states) == count);
 
 // h, REL_S and REL_G of a point.
 template <class Real>
-struct PointSize {
-    Real length, strength, toughness;
-    Mask<Real> frozen;  // the length is that of STATEV
-
-    // False, with the point refused, where they make no sense.
+struct PointSize : SofteningSize<Real> {
     template <AnalysisKind kind>
     LODE_INLINE bool read(const Increment<kind, Real>& increment, Point<kind, Real>& point, const Mask<Real>& intact,
                           double fixed_length) {
-        const Real zero(0.0), one(1.0);
-        const Real stored = point.state[H], relative_strength = point.state[REL_S],
-                   relative_toughness = point.state[REL_G];
-        frozen = !intact && stored > zero;
-        strength = select(relative_strength == zero, one, relative_strength);
-        toughness = select(relative_toughness == zero, one, relative_toughness);
-        length = stored;
-        if (all(frozen)) return true;
-
-        const Real host = fixed_length > 0.0 ? Real(fixed_length) : increment.element_length();
-        length = select(frozen, stored, host);
-        Mask<Real> bad = !frozen && !(host > zero && is_finite(host));
-        if (any(bad)) [[unlikely]] {
-            point.refuse(bad, "softening needs the element length CELENT (charLength), which", host, "> 0");
-            return false;
-        }
-        bad = !frozen && !(min(strength, toughness) > zero);
-        if (any(bad)) [[unlikely]] {
-            point.refuse(bad, "STATEV REL_S or REL_G", Real(min(strength, toughness)), "> 0");
-            return false;
-        }
-        return true;
-    }
-    // False, with the point refused, where a new crack would snap back: h >= h_max REL_G/REL_S^2.
-    template <AnalysisKind kind>
-    LODE_INLINE bool fits(Point<kind, Real>& point, double largest_length, const char* text) const {
-        const Real limit = largest_length * toughness / square(strength);
-        const Mask<Real> large = !frozen && length >= limit;
-        if (!any(large)) [[likely]]
-            return true;
-        point.refuse(large, text, length, "below", limit);
-        return false;
+        return SofteningSize<Real>::read(increment, point, {H, REL_S, REL_G}, intact, fixed_length);
     }
 };
 

@@ -156,6 +156,7 @@ LODE_INLINE bool vumat_lanes(const Kernel& kernel, const VumatArguments& a, Time
         increment.temperature_source[1] = a.temp_new + first;
         increment.field_source[0] = a.field_old + first;
         increment.field_source[1] = a.field_new + first;
+        increment.field_count = a.nfieldv;
         increment.deformation_source = a.stretch_new + first;
         increment.element_length_source = a.char_length + first;
         increment.stride = stride;

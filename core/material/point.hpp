@@ -38,14 +38,21 @@ struct Increment {
     const S* element_length_source = nullptr;
     const double* rotation_source = nullptr;  // DROT column by column; null where the frame turns with the material
     std::ptrdiff_t stride = 1;
+    int field_count = std::numeric_limits<int>::max();  // VUMAT: nfieldv; UMAT: not known
 
     LODE_INLINE Real temperature_increment() const { return change(temperature_source, 0); }
     LODE_INLINE Real temperature_start() const { return load<Real>(temperature_source[0]); }
     LODE_INLINE Real temperature_end() const { return end(temperature_source, 0); }
-    // Field variable `number` (1-based).
-    LODE_INLINE Real field_increment(int number) const { return change(field_source, number - 1); }
-    LODE_INLINE Real field_end(int number) const { return end(field_source, number - 1); }
-    LODE_INLINE Real field_start(int number) const { return load<Real>(field_source[0] + (number - 1) * stride); }
+    // Field variable `number` (1-based); 0 where an explicit host has not so many.
+    LODE_INLINE Real field_increment(int number) const {
+        return has_field(number) ? change(field_source, number - 1) : Real(0.0);
+    }
+    LODE_INLINE Real field_end(int number) const {
+        return has_field(number) ? end(field_source, number - 1) : Real(0.0);
+    }
+    LODE_INLINE Real field_start(int number) const {
+        return has_field(number) ? load<Real>(field_source[0] + (number - 1) * stride) : Real(0.0);
+    }
     LODE_INLINE Real element_length() const { return load<Real>(element_length_source); }
 
     // DFGRD1. In a VUMAT the stretch U takes its place: sigma(U) is the corotational stress (page 50, 1.7).
@@ -78,6 +85,7 @@ struct Increment {
     }
 
   private:
+    LODE_INLINE bool has_field(int number) const { return !is_batch<Real> || number <= field_count; }
     LODE_INLINE Real change(const S* const source[2], int column) const {
         if constexpr (is_batch<Real>)
             return load<Real>(source[1] + column * stride) - load<Real>(source[0] + column * stride);

@@ -40,9 +40,14 @@ inline std::string format_range(const lode_parameter& p) {
 
 class Properties {
   public:
-    // Validates every entry that is present; throws BadProperty. `material` is the name the host gave.
-    Properties(const lode_model& model, std::string_view material, const double* values, int count)
-        : places_(property_places(model, values, count)), material_(material), values_(values), count_(count) {
+    // Validates every entry that is present; throws BadProperty. `material` is the name the host gave. A model inside
+    // another one, whose constants stand before its own: messages count `before` more.
+    Properties(const lode_model& model, std::string_view material, const double* values, int count, int before = 0)
+        : places_(property_places(model, values, count)),
+          material_(material),
+          values_(values),
+          count_(count),
+          before_(before) {
         int required = static_cast<int>(places_.size());
         while (required > 0 && (parameter(required).flags & LODE_OPTIONAL) != 0) --required;
         if (count < required) {
@@ -72,16 +77,22 @@ class Properties {
     int code(int index) const { return static_cast<int>((*this)[index]); }
     int count() const { return count_; }
     std::string_view material() const { return material_; }
+    // Those of a model whose constants stand behind the first `before`.
+    Properties inner(const lode_model& model, int before) const {
+        return {model, material_, values_ + before, count_ - before, before_ + before};
+    }
 
     // Throws "<material>: PROPS(i) = value (symbol, name) must be <allowed>".
     [[noreturn]] void refuse(int index, const std::string& allowed) const {
         const std::string value = index <= count_ ? format_number(values_[index - 1]) : "missing";
-        throw BadProperty(std::string(material_) + ": PROPS(" + std::to_string(index) + ") = " + value + " (" +
-                          label(index) + ") must be " + allowed);
+        throw BadProperty(std::string(material_) + ": PROPS(" + std::to_string(before_ + index) + ") = " + value +
+                          " (" + label(index) + ") must be " + allowed);
     }
     // For refusals that concern no single entry.
     [[noreturn]] void refuse(const std::string& reason) const {
-        throw BadProperty(std::string(material_) + ": " + reason);
+        const std::string where =
+            before_ > 0 ? "counting PROPS from PROPS(" + std::to_string(before_ + 1) + ") on, " : "";
+        throw BadProperty(std::string(material_) + ": " + where + reason);
     }
 
   private:
@@ -96,7 +107,7 @@ class Properties {
     std::vector<PropertyPlace> places_;  // of PROPS, in order
     std::string_view material_;
     const double* values_;
-    int count_;
+    int count_, before_;
 };
 
 }  // namespace lode

@@ -124,6 +124,7 @@ ColumnSet::ColumnSet(const Scenario& scenario, const Library& library) {
                 add(fmt::format("F{}{}", i + 1, j + 1), "deformation gradient", fmt::format("F_{{{}{}}}", i + 1, j + 1),
                     "", [i, j](const Record& r) { return r.point.F(i, j); });
     }
+    add_closed_forms(scenario, layout);
     if (scenario.analysis.entry == Entry::umat)
         for (int i = 0; i < layout.size(); ++i)
             for (int j = 0; j < layout.size(); ++j)
@@ -132,6 +133,37 @@ ColumnSet::ColumnSet(const Scenario& scenario, const Library& library) {
                         return r.response != nullptr ? r.response->tangent(i, j)
                                                      : std::numeric_limits<double>::quiet_NaN();
                     });
+}
+
+// What an element test has to prescribe; not a number in steps without a closed form.
+void ColumnSet::add_closed_forms(const Scenario& scenario, const Layout& layout) {
+    std::vector<std::shared_ptr<const ManufacturedSolution>> solutions;
+    for (const Step& step : scenario.steps) solutions.push_back(step.solution);
+    if (std::none_of(solutions.begin(), solutions.end(), [](const auto& s) { return s != nullptr; })) return;
+    const auto exact = [solutions](auto&& quantity) {
+        return [solutions, quantity](const Record& r) {
+            const auto& solution = solutions[static_cast<std::size_t>(std::max(r.step, 1) - 1)];
+            return solution ? quantity(*solution, r.point.step_time) : std::numeric_limits<double>::quiet_NaN();
+        };
+    };
+    const std::string& stress = scenario.output.stress_unit;
+    for (int i = 0; i < layout.size(); ++i) {
+        const std::string name(layout.name(i));
+        const char* const symbol = i < layout.ndi() ? "σ" : "τ";
+        add("exact" + name, "stress", fmt::format("{}_{{{}}}, closed form", symbol, name), stress,
+            exact([layout, i](const ManufacturedSolution& s, double t) {
+                return layout.stress_components(s.stress(t))[i];
+            }));
+        columns_.back().is_reference = true;
+    }
+    for (int i = 0; i < 3; ++i) {
+        add(fmt::format("body_force{}", i + 1), "body force per mass", fmt::format("b_{{{}}}", i + 1), "",
+            exact([i](const ManufacturedSolution& s, double t) { return s.body_force(t)[i]; }));
+        for (int face = 0; face < 3; ++face)
+            add(fmt::format("traction_{}{}", "xyz"[face], i + 1), "traction",
+                fmt::format("T_{{{}{}}}", "xyz"[face], i + 1), stress,
+                exact([i, face](const ManufacturedSolution& s, double t) { return s.tractions(t)(i, face); }));
+    }
 }
 
 Column ColumnSet::find(const Located& request) const {

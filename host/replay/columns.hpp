@@ -16,6 +16,7 @@ struct Column {
     std::string label;     // "σ_{11}": gnuplot's enhanced text
     std::string unit;      // may be empty
     std::function<double(const Record&)> value;
+    bool is_reference = false;  // what another column is held against: drawn as circles
 };
 
 class ColumnSet {
@@ -32,6 +33,8 @@ class ColumnSet {
   private:
     void add(std::string name, std::string quantity, std::string label, std::string unit,
              std::function<double(const Record&)> value, bool is_default = false);
+
+    void add_closed_forms(const Scenario& scenario, const Layout& layout);
 
     std::vector<Column> columns_;
     std::vector<std::string> default_names_;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "../guard.hpp"
+#include "../verify/verification.hpp"
 #include "columns.hpp"
 #include "deck.hpp"
 #include "driver.hpp"
@@ -54,6 +55,7 @@ Status replay(const ReplayOptions& options) {
     if (options.entry) scenario.analysis.entry = *options.entry;
     const Library library(options.library.empty() ? scenario.material.library : options.library);
     resolve(scenario, library);
+    if (options.verify) check_verifiable(scenario, options.deck);
     const std::string stem = output_stem(options, scenario);
     set_job(scenario.stem, std::filesystem::absolute(options.output_directory).lexically_normal().string());
     const Plan plan = plan_output(scenario, library, stem);
@@ -72,7 +74,13 @@ Status replay(const ReplayOptions& options) {
     }
     csv.close();
 
-    const std::string text = summary.text(outcome, library);
+    std::string text = summary.text(outcome, library);
+    bool verified = true;
+    if (options.verify && outcome.status == Status::success) {
+        const Verification verification = verify(scenario, library, options.entry);
+        text += "\n" + verification.text();
+        verified = verification.passed();
+    }
     write_text(stem + ".txt", text);
     if (!options.quiet) std::fputs(text.c_str(), stdout);
     std::vector<std::string> made{csv.path(), stem + ".txt"};
@@ -89,6 +97,10 @@ Status replay(const ReplayOptions& options) {
     }
     for (const auto& remark : outcome.remarks) fmt::print(stderr, "lode: {}\n", remark);
     if (outcome.status != Status::success) fmt::print(stderr, "lode: {}\n", outcome.message);
+    if (!verified) {
+        fmt::print(stderr, "lode: {}: the material does not give the closed forms; see {}.txt\n", options.deck, stem);
+        return Status::not_verified;
+    }
     return outcome.status;
 }
 

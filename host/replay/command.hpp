@@ -14,6 +14,7 @@ struct ReplayOptions {
     std::string deck, library, output_directory = ".";
     std::optional<Entry> entry;  // instead of the deck's
     bool quiet = false;
+    bool verify = false;  // compare manufactured steps with their closed forms
 };
 
 // Errors of deck and library are thrown as Failure.

@@ -82,6 +82,50 @@ void read_gradient(TableReader& reader, const Layout& layout, Step& step) {
         reader.refuse(key, "a step is driven either by the deformation gradient or by strain and stress");
 }
 
+// What the motion needs, and nothing else.
+void read_motion(TableReader& reader, ManufacturedMotion& motion) {
+    const auto needed = [&](const char* key, bool wanted, const Limits& limits, double& value) {
+        const auto given = reader.number(key, limits);
+        if (wanted && !given) reader.refuse(key, fmt::format("{} needs {}", motion.name(), key));
+        if (!wanted && given) reader.refuse(key, fmt::format("{} has no {}", motion.name(), key));
+        if (given) value = *given;
+    };
+    needed("stretch", !motion.is_shear(), positive, motion.stretch);
+    needed("shear", motion.is_shear(), any_number, motion.shear);
+    needed("angular_frequency", motion.is_sinusoidal(), positive, motion.angular_frequency);
+    if (motion.motion == Motion::sinusoidal_tension && !(std::abs(motion.stretch - 1) < 1))
+        reader.refuse("stretch", "sinusoidal_tension has to stay below 2: F11 = 2 - stretch half a period later");
+}
+
+void read_manufactured(TableReader& step_reader, AnalysisSpec& analysis, Step& step) {
+    auto table = step_reader.table("manufactured");
+    if (!table) return;
+    TableReader& reader = *table;
+    ManufacturedMotion motion;
+    motion.duration = step.time;
+    motion.location = step_reader.location("manufactured");
+    const auto name = reader.choice("motion", motion_names);
+    if (!name) reader.refuse("motion", fmt::format("is missing; legal are {}", joined(motion_names)));
+    motion.motion = static_cast<Motion>(*name);
+    constexpr std::array<std::string_view, 2> drives{"gradient", "strain"}, causes{"temperature", "field"};
+    if (const auto drive = reader.choice("drive", drives)) motion.drive = *drive == 0 ? Drive::gradient : Drive::strain;
+    if (const auto cause = reader.choice("residual_by", causes))
+        motion.cause = *cause == 0 ? ResidualCause::temperature : ResidualCause::field;
+    read_motion(reader, motion);
+    motion.residual_stretch = reader.number("residual_stretch", positive).value_or(1);
+    if (auto law = reader.text("law")) {
+        motion.law = upper(*law);
+        motion.law_constants = reader.numbers("law_constants").value_or(std::vector<double>{});
+        if (motion.law_constants.empty()) reader.refuse("law_constants", "are missing: the constants of the law");
+    }
+    reader.finish();
+    for (const char* key : {"strain", "stress", "separation", "traction", "deformation_gradient", "rotation",
+                            "temperature", "field", "amplitude", "relative"})
+        if (step_reader.has(key)) step_reader.refuse(key, "a manufactured step has no other loading");
+    if (motion.cause == ResidualCause::field && analysis.fields.empty()) analysis.fields.assign(1, 0.0);
+    step.manufactured = std::move(motion);
+}
+
 void read_amplitude(TableReader& reader, Step& step) {
     const auto rows = reader.rows("amplitude");
     if (!rows) return;
@@ -145,6 +189,7 @@ class StepReader {
         step.name = reader.text("name").value_or("");
         step.time = reader.number("time", positive).value_or(1);
         read_increments(reader, step);
+        read_manufactured(reader, analysis_, step);
         for (const Control control : {Control::strain, Control::stress})
             read_components(reader, layout_, control, step);
         read_gradient(reader, layout_, step);
@@ -161,7 +206,9 @@ class StepReader {
                                                    step.fields->size(), analysis_.fields.size()));
         }
         if (step.moves_by_gradient() && analysis_.large_rotation == false)
-            reader.refuse(step.deformation_gradient ? "deformation_gradient" : "rotation",
+            reader.refuse(step.deformation_gradient ? "deformation_gradient"
+                          : step.rotation           ? "rotation"
+                                                    : "manufactured",
                           "needs large_rotation = true in [analysis], or no such key");
         reader.finish();
         return step;

@@ -76,6 +76,14 @@ class Run {
         return point;
     }
 
+    // The body undeformed and as new; time goes on.
+    void start_anew() {
+        const double time = point_.total_time;
+        point_ = initial_point();
+        point_.total_time = time;
+        load_ = initial_load(scenario_, point_);
+    }
+
     void probe() {
         const Step& first = scenario_.steps.front();
         const auto* fixed = std::get_if<FixedIncrements>(&first.increments);
@@ -87,6 +95,7 @@ class Run {
 
     // Returns why the step could not be finished, or nothing.
     std::string run_step(const Step& step, int number) {
+        if (step.manufactured) start_anew();
         point_.step_time = 0;
         const Path path(step, layout_, point_, load_);
         const LogarithmicFrame frame = logarithmic_frame(layout_, point_);
@@ -140,7 +149,8 @@ class Run {
             last_dstrain = solution.increment.total_dstrain;
             if (reaches_end && is_corner(path, ends[next])) last_dtime = 0;
             if (reaches_end) ++next;
-            observer_({number, increment, step.name, dtime, solution.iterations, point_, &solution.response});
+            observer_({number, increment, step.name, dtime, solution.iterations, point_, &solution.response,
+                       &solution.residuals});
 
             easy = solution.iterations <= easy_iterations ? easy + 1 : 0;
             if (solution.response.pnewdt > 1)
@@ -233,6 +243,21 @@ void resolve(Scenario& scenario, const Library& library) {
                             "from 1 are always understood",
                             name.location, name.text, material.name, material.name.substr(0, material.name.find('-'))));
         material.initial_state[*index] = value;
+    }
+    find_solutions(scenario);
+}
+
+void find_solutions(Scenario& scenario) {
+    const MaterialSpec& material = scenario.material;
+    for (Step& step : scenario.steps) {
+        if (!step.manufactured) continue;
+        if (material.initial_stress || !material.expansion.empty() ||
+            std::any_of(material.initial_state.begin(), material.initial_state.end(), [](double x) { return x != 0; }))
+            throw BadDeck(step.manufactured->location +
+                          ": closed forms are those of a new material without expansion of the host: no "
+                          "initial_stress, initial_state, expansion in [material]");
+        step.solution = manufactured_solution(material.name, material.constants, *step.manufactured,
+                                              scenario.analysis.kind, scenario.analysis.entry);
     }
 }
 

@@ -21,6 +21,7 @@ struct Record {
     int iterations = 0;
     const PointState& point;
     const Response* response = nullptr;
+    const std::vector<double>* residuals = nullptr;  // largest residual stress before every correction and at the end
 };
 class Material;
 using Observer = std::function<void(const Record&)>;
@@ -40,6 +41,9 @@ struct Outcome {
 
 // Fills in what the deck left to the library: STATEV, large rotation, named initial state. Throws Refused or BadDeck.
 void resolve(Scenario& scenario, const Library& library);
+
+// The closed forms of manufactured steps, part of `resolve`; once more where the interface has changed. Throws BadDeck.
+void find_solutions(Scenario& scenario);
 
 // The scenario has been resolved. Throws NotLoaded if the library lacks the entry point; all else is in the outcome.
 Outcome drive(const Scenario& scenario, const Library& library, const Observer& observer);

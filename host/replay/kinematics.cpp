@@ -34,6 +34,20 @@ Matrix3 exponential(const Matrix3& symmetric) {
     return spectral(symmetric, [](double x) { return std::exp(x); });
 }
 
+Matrix3 exponential_derivative(const Matrix3& symmetric, const Matrix3& direction) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3> solver(symmetric);
+    const Matrix3& n = solver.eigenvectors();
+    const Eigen::Vector3d& e = solver.eigenvalues();
+    Matrix3 derivative = n.transpose() * direction * n;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            // (exp a - exp b)/(a - b), also for equal ones
+            const double half = 0.5 * (e[i] - e[j]);
+            derivative(i, j) *= std::exp(0.5 * (e[i] + e[j])) * (half == 0 ? 1 : std::sinh(half) / half);
+        }
+    return n * derivative * n.transpose();
+}
+
 Matrix3 logarithm(const Matrix3& symmetric_positive) {
     if (symmetric_positive.isDiagonal(0)) return symmetric_positive.diagonal().array().log().matrix().asDiagonal();
     return spectral(symmetric_positive, [](double x) { return std::log(x); });

@@ -13,6 +13,8 @@ struct Polar {
 Polar polar(const Matrix3& F);
 
 Matrix3 exponential(const Matrix3& symmetric);
+// Derivative of the exponential at `symmetric` in a symmetric direction.
+Matrix3 exponential_derivative(const Matrix3& symmetric, const Matrix3& direction);
 Matrix3 logarithm(const Matrix3& symmetric_positive);
 Matrix3 rotation_about(const Eigen::Vector3d& axis, double angle);
 

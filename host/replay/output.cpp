@@ -33,7 +33,10 @@ std::pair<std::string, std::string> default_axes(const Scenario& scenario) {
     const Layout layout(scenario.analysis.kind);
     int component = 0;
     for (const Step& step : scenario.steps) {
-        if (step.moves_by_gradient()) break;
+        if (step.moves_by_gradient() || step.manufactured) {
+            if (step.manufactured && step.manufactured->is_shear()) component = layout.ndi();
+            break;
+        }
         const auto driven = std::find_if(step.components.begin(), step.components.end(),
                                          [](const auto& c) { return c && c->value != 0; });
         if (driven == step.components.end()) continue;
@@ -108,9 +111,10 @@ std::string draw(const Figure& figure, const std::string& csv) {
     const std::string data = std::filesystem::path(csv).filename().string();
     std::string curves;
     for (std::size_t i = 0; i < figure.y.size(); ++i) {
-        curves += fmt::format("{} using {}:{} with lines lw 1.6 lc rgb '{}' {}", i == 0 ? "plot data" : ", data",
-                              figure.x_index + 1, figure.y_index[i] + 1, curve_colour(i),
-                              figure.y.size() > 1 ? "title " + double_quoted(figure.y[i].label) : "notitle");
+        curves +=
+            fmt::format("{} using {}:{} with {} lc rgb '{}' {}", i == 0 ? "plot data" : ", data", figure.x_index + 1,
+                        figure.y_index[i] + 1, figure.y[i].is_reference ? "points pt 6 ps 0.8 lw 1.2" : "lines lw 1.6",
+                        curve_colour(i), figure.y.size() > 1 ? "title " + double_quoted(figure.y[i].label) : "notitle");
     }
     return draw_script(
         figure.stem,

@@ -18,7 +18,7 @@ Load initial_load(const Scenario& scenario, const PointState& point) {
 }
 
 Path::Path(const Step& step, const Layout& layout, const PointState& start, const Load& previous)
-    : step_(step), begin_(previous), gradient_begin_(start.F), gradient_end_(start.F) {
+    : step_(step), layout_(layout), begin_(previous), gradient_begin_(start.F), gradient_end_(start.F) {
     for (int i = 0; i < layout.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         if (const auto& prescribed = step.components[k]) begin_.control[k] = prescribed->control;
@@ -41,6 +41,8 @@ Path::Path(const Step& step, const Layout& layout, const PointState& start, cons
             end_.fields[i] = step.relative ? begin_.fields[i] + (*step.fields)[i] : (*step.fields)[i];
     if (step.deformation_gradient) gradient_end_ = *step.deformation_gradient;
 
+    if (step.manufactured && step.manufactured->motion == Motion::held_shear)
+        corners_.push_back(step.manufactured->jump_time());
     for (const AmplitudePoint& point : step.amplitude)
         if (point.time > 0 && point.time < 1) corners_.push_back(point.time * step.time);
     corners_.push_back(step.time);
@@ -59,7 +61,21 @@ double Path::progress(double time) const {
     return table.back().value;
 }
 
+// Where the closed form is, or its small strain; heat or moisture follow ln(lr), not a straight ramp.
+Load Path::manufactured_at(double time) const {
+    const ManufacturedSolution& solution = *step_.solution;
+    Load load = begin_;
+    load.control.fill(Control::strain);
+    if (step_.moves_by_gradient()) load.gradient = solution.gradient(time);
+    else load.value = layout_.strain_components(solution.small_strain(time));
+    const double change = solution.residual_change(time);
+    if (solution.motion().cause == ResidualCause::temperature) load.temperature += change;
+    else load.fields.front() += change;
+    return load;
+}
+
 Load Path::at(double time) const {
+    if (step_.solution) return manufactured_at(time);
     const double s = progress(time);
     const auto between = [s](double begin, double end) { return s == 1 ? end : begin + s * (end - begin); };
     Load load = begin_;

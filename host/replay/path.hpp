@@ -35,8 +35,10 @@ class Path {
 
   private:
     double progress(double time) const;
+    Load manufactured_at(double time) const;
 
     const Step& step_;
+    const Layout& layout_;
     Load begin_, end_;
     Matrix3 gradient_begin_, gradient_end_;
     std::vector<double> corners_;

@@ -4,11 +4,13 @@
 #define LODE_HOST_REPLAY_SCENARIO_HPP
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "../verify/solution.hpp"
 #include "analysis.hpp"
 
 namespace lode::host {
@@ -80,8 +82,13 @@ struct Step {
     std::optional<std::vector<double>> fields;
     std::vector<AmplitudePoint> amplitude;  // empty: a straight ramp
     bool relative = false;                  // targets are changes from the start of the step
+    // A motion with a closed form. The body is undeformed and as new at the start of the step.
+    std::optional<ManufacturedMotion> manufactured;
+    std::shared_ptr<const ManufacturedSolution> solution;  // of the material; `resolve` finds it
 
-    bool moves_by_gradient() const { return deformation_gradient || rotation; }
+    bool moves_by_gradient() const {
+        return deformation_gradient || rotation || (manufactured && manufactured->drive == Drive::gradient);
+    }
 };
 
 struct Plot {

@@ -16,6 +16,15 @@ constexpr double round_off = std::numeric_limits<double>::epsilon();
 constexpr int maximum_halvings = 8;
 constexpr double sufficient_decrease = 1e-4;
 
+// E of F = exp(E) R at the end of an increment; the thickness of a sheet follows at constant volume.
+Matrix3 frame_strain(const Layout& layout, const PointState& start, const LogarithmicFrame& frame,
+                     const Components& total_dstrain) {
+    Matrix3 strain = layout.strain_tensor(start.strain + total_dstrain) + frame.offset;
+    if (layout.kind() == Kind::plane_stress) strain(2, 2) = -(strain(0, 0) + strain(1, 1));
+    if (layout.kind() == Kind::uniaxial) strain(1, 1) = strain(2, 2) = -0.5 * strain(0, 0);
+    return strain;
+}
+
 }  // namespace
 
 struct Solver::Problem {
@@ -88,10 +97,7 @@ Increment Solver::increment_for(const PointState& start, const LogarithmicFrame&
                 increment.strain = layout_.strain_components(motion.rotation * layout_.strain_tensor(start.strain) *
                                                              motion.rotation.transpose());
         } else {
-            Matrix3 strain = layout_.strain_tensor(start.strain + total_dstrain) + frame.offset;
-            if (layout_.kind() == Kind::plane_stress) strain(2, 2) = -(strain(0, 0) + strain(1, 1));
-            if (layout_.kind() == Kind::uniaxial) strain(1, 1) = strain(2, 2) = -0.5 * strain(0, 0);
-            increment.F1 = exponential(strain) * frame.rotation;
+            increment.F1 = exponential(frame_strain(layout_, start, frame, total_dstrain)) * frame.rotation;
         }
     }
 
@@ -133,6 +139,23 @@ Tangent Solver::tangent_at(const Problem& problem, const Trial& trial) const {
         tangent.col(component) = (response.stress - trial.response.stress) / (shifted[component] - dstrain[component]);
     }
     return tangent;
+}
+
+// d stress/d E of a material that reads F = exp(E) R, from DDSDDE = (1/J) d(J sigma) in the Jaumann sense:
+// d sigma = DDSDDE D - sigma tr D + W sigma - sigma W, with D and W the parts of dF F^-1.
+Tangent Solver::strain_tangent(const Problem& problem, const Trial& trial, const Tangent& tangent) const {
+    const Matrix3 strain = frame_strain(layout_, problem.start, problem.frame, trial.increment.total_dstrain);
+    const Matrix3 stress = layout_.stress_tensor(trial.response.stress);
+    const Matrix3 inverse_stretch = exponential(-strain);
+    Tangent result = tangent;
+    for (const int component : problem.free) {
+        const Components direction = Components::Unit(layout_.size(), component);
+        const Matrix3 gradient = exponential_derivative(strain, layout_.strain_tensor(direction)) * inverse_stretch;
+        const Matrix3 rate = 0.5 * (gradient + gradient.transpose()), spin = gradient - rate;
+        result.col(component) = tangent * layout_.strain_components(rate) +
+                                layout_.stress_components(spin * stress - stress * spin - rate.trace() * stress);
+    }
+    return result;
 }
 
 Eigen::MatrixXd Solver::free_block(const Problem& problem, const Tangent& tangent) const {
@@ -195,10 +218,11 @@ bool Solver::correct(const Problem& problem, const Eigen::MatrixXd& jacobian, Tr
     return false;
 }
 
-Solution Solver::finish(Trial&& trial, int iterations) const {
+Solution Solver::finish(Trial&& trial, std::vector<double>&& residuals) const {
     Solution solution;
     solution.converged = true;
-    solution.iterations = iterations;
+    solution.iterations = static_cast<int>(residuals.size()) - 1;
+    solution.residuals = std::move(residuals);
     solution.increment = std::move(trial.increment);
     solution.response = std::move(trial.response);
     return solution;
@@ -230,18 +254,20 @@ Solution Solver::solve(const PointState& start, const LogarithmicFrame& frame, c
     }
 
     Tangent elastic;  // of a zero increment: the fallback where the consistent tangent does not lead down
+    std::vector<double> residuals;
     for (int iteration = 0;; ++iteration) {
         failed.iterations = iteration;
-        if (trial.norm <= tolerance(problem, trial)) return finish(std::move(trial), iteration);
+        residuals.push_back(trial.norm);
+        if (trial.norm <= tolerance(problem, trial)) return finish(std::move(trial), std::move(residuals));
         if (iteration == maximum_iterations_) {
             failed.failure = fmt::format("no equilibrium in {} iterations; the largest residual stress is {:.3g}",
                                          iteration, trial.norm);
             return failed;
         }
         Tangent tangent = tangent_at(problem, trial);
-        // d sigma = DDSDDE d eps - sigma tr(d eps); where the thickness follows, J hardly changes.
+        // Where the thickness follows, J hardly changes.
         if (large_rotation_ && reads_gradient_ && material_.has_tangent() && layout_.ndi() == 3)
-            for (int i = 0; i < layout_.ndi(); ++i) tangent.col(i) -= trial.response.stress;
+            tangent = strain_tangent(problem, trial, tangent);
         if (correct(problem, free_block(problem, tangent), trial)) continue;
 
         if (elastic.size() == 0) {

@@ -3,6 +3,7 @@
 #define LODE_HOST_REPLAY_SOLVER_HPP
 
 #include <string>
+#include <vector>
 
 #include "material.hpp"
 #include "path.hpp"
@@ -27,6 +28,8 @@ struct Solution {
     std::string failure;    // why not
     double cut_factor = 1;  // what PNEWDT asked for, 1 if it did not
     int iterations = 0;     // Newton corrections
+    // Largest residual stress before every correction and at the end.
+    std::vector<double> residuals;
     Increment increment;
     Response response;
 };
@@ -49,11 +52,12 @@ class Solver {
 
     Trial evaluate(const Problem& problem, const Components& total_dstrain) const;
     Components predict(const Problem& problem, const Components& prescribed) const;
+    Tangent strain_tangent(const Problem& problem, const Trial& trial, const Tangent& tangent) const;
     Tangent tangent_at(const Problem& problem, const Trial& trial) const;
     bool correct(const Problem& problem, const Eigen::MatrixXd& jacobian, Trial& trial) const;
     Eigen::MatrixXd free_block(const Problem& problem, const Tangent& tangent) const;
     double tolerance(const Problem& problem, const Trial& trial) const;
-    Solution finish(Trial&& trial, int iterations) const;
+    Solution finish(Trial&& trial, std::vector<double>&& residuals) const;
 
     Layout layout_;
     Material& material_;

@@ -54,7 +54,9 @@ std::optional<Control> held(Kind from, std::string_view name) {
 bool in_plane(const Matrix3& F) { return F(0, 2) == 0 && F(1, 2) == 0 && F(2, 0) == 0 && F(2, 1) == 0; }
 
 bool gradients_fit(const Scenario& scenario, Kind kind) {
-    if (!gradient_controlled(scenario)) return true;
+    const bool manufactured = std::any_of(scenario.steps.begin(), scenario.steps.end(),
+                                          [](const Step& step) { return step.manufactured.has_value(); });
+    if (!gradient_controlled(scenario) && !manufactured) return true;
     if (kind == Kind::solid) return true;
     if (kind != Kind::plane_strain && kind != Kind::axisymmetric) return false;
     return std::all_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
@@ -170,7 +172,7 @@ std::optional<Scenario> in_small_strain(const Scenario& scenario) {
     const Layout layout(scenario.analysis.kind);
     result.analysis.large_rotation = false;
     for (Step& step : result.steps) {
-        if (step.rotation) return std::nullopt;
+        if (step.rotation || step.manufactured) return std::nullopt;
         if (!step.deformation_gradient) continue;
         const Matrix3 H = *step.deformation_gradient - Matrix3::Identity();
         const Components strain = layout.strain_components(0.5 * (H + H.transpose()));

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
@@ -196,6 +197,121 @@ inline void check_explicit(const std::string& keyword, const Numbers& props, dou
             }
         }
     }
+}
+
+// Adaptive Lobatto quadrature with Kronrod's extension (Gander and Gautschi). The ends of a piece are nodes: a kink
+// close to one of them does not go unseen. The first two levels are always divided.
+template <class F>
+double integral(const F& f, double from, double to, double f_from, double f_to, double tolerance, int depth) {
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from), a = std::sqrt(2.0 / 3.0) * half,
+                 b = half / std::sqrt(5.0);
+    const double x[] = {from, middle - a, middle - b, middle, middle + b, middle + a, to};
+    double y[] = {f_from, f(x[1]), f(x[2]), f(x[3]), f(x[4]), f(x[5]), f_to};
+    const double coarse = half / 6.0 * (y[0] + y[6] + 5.0 * (y[2] + y[4]));
+    const double fine =
+        half / 1470.0 * (77.0 * (y[0] + y[6]) + 432.0 * (y[1] + y[5]) + 625.0 * (y[2] + y[4]) + 672.0 * y[3]);
+    if ((std::abs(fine - coarse) <= tolerance && depth <= 18) || depth == 0) return fine;
+    double sum = 0.0;
+    for (int i = 0; i < 6; ++i) sum += integral(f, x[i], x[i + 1], y[i], y[i + 1], tolerance, depth - 1);
+    return sum;
+}
+template <class F>
+double integral(const F& f, double from, double to, double tolerance) {
+    return integral(f, from, to, f(from), f(to), tolerance, 20);
+}
+
+// A straight path at one of 19 mode ratios, s * direction, and what it releases until the zone fails. The reference is
+// the work of each traction less what is stored: it uses nothing of the law but its tractions.
+struct ModeRatio {
+    Numbers direction;
+    double end = 0.0;  // s at failure
+    double GI = 0.0, GII = 0.0;
+
+    // Where the path is after increment k of `steps`: small increments at both ends, the last one beyond failure.
+    double at(int k, int steps) const {
+        const double x = static_cast<double>(k) / steps;
+        return (1.0 + 1e-10) * end * x * x * (3.0 - 2.0 * x);
+    }
+};
+inline ModeRatio mode_ratio(const std::string& keyword, const Numbers& props, int i, double far) {
+    const double angle = i * std::acos(0.0) / 18;
+    ModeRatio path{{std::sin(angle), std::cos(angle)}};
+    const Interface virgin(keyword, flat, props);
+    const auto at = [&](double s) {
+        return virgin.point.evaluate(virgin.load_to({s * path.direction[0], s * path.direction[1]}));
+    };
+    double sound = 0.0, failed = far;
+    if (at(failed).state[STATUS - 1] != 0.0) ADD_FAILURE() << keyword << " does not fail at ratio " << i;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (sound + failed);
+        (at(middle).state[STATUS - 1] == 0.0 ? failed : sound) = middle;
+    }
+    path.end = failed;
+    double released[2];
+    for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
+        // Both ends of the path may be steep.
+        const auto work = [&](double x) {
+            const double s = sound * x * x * (3.0 - 2.0 * x), slope = sound * 6.0 * x * (1.0 - x);
+            return at(s).stress[mode] * path.direction[mode] * slope;
+        };
+        // Tractions may end like a root of the distance to failure: extrapolated from two states before.
+        const double near = 1e-10, traction = 2.0 * at(path.end * (1.0 - near)).stress[mode] -
+                                              at(path.end * (1.0 - 4.0 * near)).stress[mode];
+        const double stored = 0.5 * traction * path.end * path.direction[mode];
+        released[mode] = integral(work, 0.0, 1.0, 1e-12) - stored;
+    }
+    path.GI = released[0];
+    path.GII = released[1];
+    return path;
+}
+// The energies of a failure in `steps` increments.
+inline Answer fail_along(const std::string& keyword, const Numbers& props, const ModeRatio& path, int steps) {
+    Interface face(keyword, flat, props);
+    Answer a;
+    for (int k = 1; k <= steps; ++k) {
+        const double s = path.at(k, steps);
+        a = face.to({s * path.direction[0], s * path.direction[1]});
+    }
+    EXPECT_EQ(entry(a, STATUS), 0.0);
+    return a;
+}
+// As a block of an explicit host, all mode ratios side by side.
+inline void check_block_of_ratios(const std::string& keyword, const Numbers& props, const std::vector<ModeRatio>& paths,
+                                  int steps, double tolerance) {
+    VumatBlock block(keyword, flat, props);
+    block.points.assign(paths.size(), block.fresh_point());
+    for (int k = 1; k <= steps; ++k) {
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            const double ds = paths[i].at(k, steps) - paths[i].at(k - 1, steps);
+            block.points[i].strain_increment = {ds * paths[i].direction[0], ds * paths[i].direction[1]};
+        }
+        EXPECT_EQ(block.run().stops, 0);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        EXPECT_EQ(block.points[i].state[STATUS - 1], 0.0);
+        EXPECT_NEAR(block.points[i].state[GI - 1], paths[i].GI, tolerance) << i;
+        EXPECT_NEAR(block.points[i].state[GII - 1], paths[i].GII, tolerance) << i;
+    }
+}
+
+// Full mixed-mode failures at 19 mode ratios: what is released is the work of the tractions, whatever the increments,
+// and meets (GI/GIc)^p + (GII/GIIc)^p = 1; an explicit host gets the same.
+inline void check_failure_criterion(const std::string& keyword, const Numbers& props, double GIc, double GIIc,
+                                    double power) {
+    std::vector<ModeRatio> paths;
+    for (int i = 0; i <= 18; ++i) {
+        paths.push_back(mode_ratio(keyword, props, i, 1.0));
+        const ModeRatio& path = paths.back();
+        for (const int steps : {1, 100}) {
+            const Answer a = fail_along(keyword, props, path, steps);
+            EXPECT_NEAR(entry(a, GI), path.GI, 1e-9) << i << ", " << steps;
+            EXPECT_NEAR(entry(a, GII), path.GII, 1e-9) << i << ", " << steps;
+            EXPECT_NEAR(std::pow(entry(a, GI) / GIc, power) + std::pow(entry(a, GII) / GIIc, power), 1.0, 1e-12)
+                << i << ", " << steps;
+            EXPECT_NEAR(a.spd, entry(a, GI) + entry(a, GII) + entry(a, GDROP), 1e-14);
+        }
+    }
+    check_block_of_ratios(keyword, props, paths, 100, 1e-9);
 }
 
 // What every one of them does with separations that are not numbers.

@@ -8,15 +8,14 @@
 
 namespace lode::test {
 
-template <class Model, AnalysisKind kind>
-Differentiated differentiate(const UmatPoint& at, const Load& load) {
+// The derivatives of `update(increment, point)`, which is given numbers that carry them.
+template <AnalysisKind kind, class Update>
+Differentiated differentiate_update(const UmatPoint& at, const Load& load, const Update& update) {
     constexpr int n = components(kind);
     using Real = Dual<n + 1>;  // the strain components, then temperature
     const auto constants = [](const auto& values) { return std::vector<Real>(std::begin(values), std::end(values)); };
     const auto index = [](int i) { return static_cast<std::size_t>(i); };
 
-    const Model model(
-        Properties(Model::description, at.name(), at.props().data(), static_cast<int>(at.props().size())));
     Increment<kind, Real> increment;
     Point<kind, Real> point;
     const Numbers dstran = load.dstran.empty() ? Numbers(n, 0.0) : load.dstran;
@@ -57,14 +56,14 @@ Differentiated differentiate(const UmatPoint& at, const Load& load) {
     std::vector<Real> state = constants(at.state());
     point.state = State<Real>(state.data(), state.data(), 1, static_cast<int>(state.size()));
 
-    NoTangent none;
-    model.template update<kind, Real>(increment, point, none);
+    update(increment, point);
 
     Differentiated result;
     result.done = point.failure == nullptr;
     result.stress_by_strain.resize(n, n);
     result.stress_by_temperature.resize(n);
     result.state_by_strain.resize(static_cast<Eigen::Index>(state.size()), n);
+    result.state_by_temperature.resize(static_cast<Eigen::Index>(state.size()));
     for (int i = 0; i < n; ++i) {
         result.stress.push_back(point.stress[i].value);
         for (int j = 0; j < n; ++j) result.stress_by_strain(i, j) = point.stress[i](j);
@@ -73,8 +72,20 @@ Differentiated differentiate(const UmatPoint& at, const Load& load) {
     for (std::size_t i = 0; i < state.size(); ++i) {
         result.state.push_back(state[i].value);
         for (int j = 0; j < n; ++j) result.state_by_strain(static_cast<Eigen::Index>(i), j) = state[i](j);
+        result.state_by_temperature(static_cast<Eigen::Index>(i)) = state[i](n);
     }
     return result;
+}
+
+template <class Model, AnalysisKind kind>
+Differentiated differentiate(const UmatPoint& at, const Load& load) {
+    const Model model(
+        Properties(Model::description, at.name(), at.props().data(), static_cast<int>(at.props().size())));
+    return differentiate_update<kind>(
+        at, load, [&]<class Real>(const Increment<kind, Real>& increment, Point<kind, Real>& point) {
+            NoTangent none;
+            model.template update<kind, Real>(increment, point, none);
+        });
 }
 
 template <class Model, int k>

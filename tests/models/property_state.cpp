@@ -146,7 +146,8 @@ TEST_P(Objectivity, UnderSuperposedRotation) {
         // errors are compared with the neighbours, among which are the other components.
         plain.step({});
         turned.step({.dfgrd1 = plain.deformation_gradient(), .drot = q.transpose()});
-        const double relative = tolerance / c.stress_scale();
+        // Normals of cracks and other directions magnify what the stress is off by.
+        const double relative = 3.0 * tolerance / c.stress_scale();
         const Numbers &a = plain.state(), &b = turned.state();
         for (std::size_t i = 0; i < a.size(); ++i) {
             double size = c.scale();

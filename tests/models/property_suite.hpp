@@ -20,6 +20,7 @@ struct Case {
     const lode_sample* sample = nullptr;
     AnalysisKind kind = AnalysisKind::solid;
     bool reads_deformation = false;  // STRESS answers to DFGRD1 (some laws do by option, without the trait)
+    bool reads_field = false;        // STRESS answers to the value of PREDEF(1), not only to its change
     double stiffness = 0.0;          // largest entry of the virgin DDSDDE, in any kind of the sample
 
     bool has_trait(unsigned trait) const { return (model->traits & trait) != 0; }

@@ -21,6 +21,7 @@ bool register_differentiated(const DifferentiatedModel& model) {
     return true;
 }
 DifferentiateFunction differentiated_kernel(std::string_view keyword, AnalysisKind kind) {
+    if (keyword.starts_with("POROUS_")) return differentiated_porous_kernel(kind);
     for (const DifferentiatedModel& model : differentiated_models())
         if (keyword == model.keyword) return model.kernels[static_cast<int>(kind)];
     return nullptr;
@@ -62,6 +63,7 @@ class Tangent : public testing::TestWithParam<Case> {
             Random random(c, seed);
             UmatPoint point = c.point();
             point.temperature(c.temperature() + 20.0);
+            if (c.reads_field) point.fields({0.3});
             for (Step& step : random_path(c, random)) {
                 if (random.chance(0.3)) step.rotation = random.rotation(c.kind, 0.2);
                 Load load = load_of(point, step);

@@ -855,6 +855,25 @@ TEST(CamClay, BatchesWithFrozenLanesEqualSinglePoints) {
     }
 }
 
+// nfieldv = 0: what stands behind the empty field arrays is not read.
+TEST(CamClay, AnExplicitHostWithoutFieldsHasNoPorePressure) {
+    Numbers props = case1;
+    props.resize(10, 0.0);
+    props[9] = 1.0;  // Biot
+    const auto stress_with = [&](const Numbers& fields) {
+        VumatBlock block("CAM_CLAY-F", solid, props);
+        block.points.assign(9, block.fresh_point());
+        for (VumatPoint& x : block.points) {
+            x.stress = {-90, -90, -90, 0, 0, 0};
+            x.strain_increment = {-1e-3, 0, 0, 2e-3, 0, 0};
+            x.fields_old = x.fields_new = fields;
+        }
+        EXPECT_TRUE(block.run().errors.empty());
+        return block.points[8].stress;
+    };
+    EXPECT_TRUE(identical(stress_with({}), stress_with({0.0})));
+}
+
 // stepTime = totalTime = 0: elastic answer at the initial state, no history.
 TEST(CamClay, ExplicitProbeIsElastic) {
     VumatBlock block("CAM_CLAY-P", solid, case2);

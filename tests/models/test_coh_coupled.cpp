@@ -91,6 +91,11 @@ TEST(CohCoupled, FailureAtConstantMixity) {
             }
 }
 
+TEST(CohCoupled, FailureAt19ModeRatios) {
+    for (const Numbers& props : {set_a, alike, with(alike, {3})})
+        check_failure_criterion(keyword, props, props[2], props[5], 1.0);
+}
+
 // HO-1 turns in its last increment and therefore misses the line.
 TEST(CohCoupled, TurningMixityIsOfFirstOrder) {
     Interface face(keyword, flat, set_a);

@@ -71,6 +71,11 @@ TEST(CohCubic, CU4) {
 
 // --- 7.3: further checks -----------------------------------------------------------------------------------------
 
+TEST(CohCubic, FailureAt19ModeRatios) {
+    for (const double power : {1.0, 2.0})
+        check_failure_criterion("COH_CUBIC", {30, 0.3, 40, 0.9, power}, 0.3, 0.9, power);
+}
+
 TEST(CohCubic, FailureDoesNotDependOnTheIncrementSize) {
     for (const double exponent : {0.5, 1.0, 2.0, 3.7}) {
         const Numbers props = with({exponent});

@@ -90,6 +90,11 @@ TEST(CohExponential, EX4) {
 
 // --- 7.3: further checks -----------------------------------------------------------------------------------------
 
+TEST(CohExponential, FailureAt19ModeRatios) {
+    for (const double power : {1.0, 2.0})
+        check_failure_criterion("COH_EXPONENTIAL", {100000, 30, 0.3, 3, 50000, 40, 0.9, 5, power}, 0.3, 0.9, power);
+}
+
 TEST(CohExponential, FailureDoesNotDependOnTheIncrementSize) {
     for (const double exponent : {0.5, 1.0, 2.0, 3.7}) {
         const Numbers props = with({exponent});

@@ -399,8 +399,10 @@ TEST(CohMixed, EnvelopeOfProportionalLawsIsStraight) {
     }
 }
 
-// Every other pair: the energies converge to what the path releases, whatever the increments, and the sum is the work.
-TEST(CohMixed, EnergiesOfAllPairsAtFailure) {
+// Any pair of laws at 19 mode ratios: the zone fails on the last ellipse, and the energies are the work of the
+// tractions. They are integrated over an increment by Gauss points, so it takes some increments where the laws are
+// unlike: most with Needleman's, whose damage begins at 0 and whose end is flat.
+void check_pairs(double method) {
     struct Mode {
         double code, k, a, b;
     };
@@ -409,41 +411,34 @@ TEST(CohMixed, EnergiesOfAllPairsAtFailure) {
     const Mode shear[] = {{1, 5e4, 0, 0},    {2, 5e4, 0.1, 0}, {3, 0, 0, 0},
                           {4, 5e4, 1e-2, 0}, {5, 5e4, 5, 0},   {6, 5e4, 10, 0.02}};
     for (const Mode& n : normal)
-        for (const Mode& t : shear)
-            for (const double method : {1.0, 3.0}) {
-                const bool decays = n.code == 4 || n.code == 5 || t.code == 4 || t.code == 5;
-                if (method == 3 && decays) continue;
-                const Numbers props = {n.code, n.k, 30,     0.3, t.code, t.k, 40, 0.9, n.a, n.b,
-                                       t.a,    t.b, method, 1,   1,      1,   0,  1,   8};
-                for (int i = 0; i <= 18; i += 3) {
-                    const double angle = angle_of(i);
-                    Answer a[2];
-                    double work[2];
-                    for (const int fine : {0, 1}) {
-                        const int steps = fine == 0 ? 60 : 240;
-                        Interface face(keyword, flat, props);
-                        for (int k = 1; k <= steps; ++k)
-                            a[fine] = face.to({0.6 * std::sin(angle) * std::pow(double(k) / steps, 3),
-                                               0.6 * std::cos(angle) * std::pow(double(k) / steps, 3)});
-                        work[fine] = entry(a[fine], WORK);
-                        EXPECT_EQ(entry(a[fine], STATUS), 0.0) << n.code << t.code;
-                    }
-                    // Where S ends with slope 0 the other mode's delta has a square root there, and Gauss points
-                    // lose their order in the last increment.
-                    const double tolerance =
-                        method == 3 || n.code == 2 || n.code == 3 || t.code == 2 || t.code == 3 ? 5e-6 : 1e-7;
-                    EXPECT_NEAR(entry(a[0], GI), entry(a[1], GI), tolerance)
-                        << n.code << t.code << " " << method << " " << i;
-                    EXPECT_NEAR(entry(a[0], GII), entry(a[1], GII), tolerance)
-                        << n.code << t.code << " " << method << " " << i;
-                    const double released = entry(a[1], GI) + entry(a[1], GII) + entry(a[1], GDROP);
-                    EXPECT_NEAR(work[1], released, 0.1 * released) << n.code << t.code << " " << method << " " << i;
-                    if (i == 0 && entry(a[1], GDROP) == 0.0) {
-                        EXPECT_NEAR(entry(a[1], GII), 0.9, 1e-8);
-                    }
-                }
+        for (const Mode& t : shear) {
+            const bool decays = n.code == 4 || n.code == 5 || t.code == 4 || t.code == 5;
+            if (method == 3 && decays) continue;
+            SCOPED_TRACE(std::to_string(int(n.code)) + " with " + std::to_string(int(t.code)));
+            const Numbers props = {n.code, n.k, 30,     0.3, t.code, t.k, 40, 0.9, n.a, n.b,
+                                   t.a,    t.b, method, 1,   1,      1,   0,  1,   8};
+            const bool needleman = (n.code == 3) != (t.code == 3);
+            const int steps = needleman ? 1000 : 200;
+            // Where the cubic law is used up first, dn as a function of Psi has a fifth root at its end.
+            const bool flat_end = method == 3 && n.code == 2 && (t.code == 1 || t.code == 6);
+            const double tolerance = flat_end ? 6e-8 : 1e-8;
+            std::vector<ModeRatio> paths;
+            for (int i = 0; i <= 18; ++i) {
+                paths.push_back(mode_ratio(keyword, props, i, 2.0));
+                const ModeRatio& path = paths.back();
+                const Answer a = fail_along(keyword, props, path, steps);
+                EXPECT_NEAR(entry(a, GI), path.GI, tolerance) << i;
+                EXPECT_NEAR(entry(a, GII), path.GII, tolerance) << i;
+                EXPECT_NEAR(a.spd, entry(a, GI) + entry(a, GII) + entry(a, GDROP), 1e-13) << i;
+                const double un = path.end * path.direction[0] / entry(a, DN),
+                             ut = path.end * path.direction[1] / entry(a, DT);
+                EXPECT_NEAR(un * un + ut * ut, 1.0, 1e-8) << i;
             }
+            check_block_of_ratios(keyword, props, paths, steps, tolerance);
+        }
 }
+TEST(CohMixed, EnergiesOfAllPairsAtFailureWithEqualDamage) { check_pairs(1); }
+TEST(CohMixed, EnergiesOfAllPairsAtFailureWithNormalReturn) { check_pairs(3); }
 
 // Method 0 meets its criterion exactly.
 TEST(CohMixed, CriterionOfTheDecoupledMethod) {
@@ -455,6 +450,11 @@ TEST(CohMixed, CriterionOfTheDecoupledMethod) {
             const Answer a = face.to({0.3 * std::sin(angle), 0.3 * std::cos(angle)});
             EXPECT_NEAR(std::pow(entry(a, GI) / 0.3, p) + std::pow(entry(a, GII) / 0.9, q), 1.0, 1e-14);
         }
+}
+TEST(CohMixed, DecoupledFailureAt19Ratios) {
+    for (const double power : {1.0, 2.0})
+        check_failure_criterion(keyword, {6, 100000, 30, 0.3, 2, 50000, 40, 0.9, 12, 0.006, 0.2, 0, 0, power}, 0.3, 0.9,
+                                power);
 }
 // The decoupled keywords are method 0.
 TEST(CohMixed, DecoupledKeywordsAreMethodZero) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "coh_support.hpp"
 #include "lode/cohesive/coh_triangular.hpp"
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
@@ -136,6 +137,11 @@ TEST(CohTriangular, TR5) {
 }
 
 // --- 7.3: further checks -----------------------------------------------------------------------------------------
+
+TEST(CohTriangular, FailureAt19ModeRatios) {
+    for (const double power : {1.0, 2.0})
+        coh::check_failure_criterion("COH_TRIANGULAR", {100000, 30, 0.3, 50000, 40, 0.9, power}, 0.3, 0.9, power);
+}
 
 TEST(CohTriangular, FailureDoesNotDependOnTheIncrementSize) {
     for (const double exponent : {0.5, 1.0, 2.0, 3.7}) {

@@ -77,6 +77,12 @@ TEST(CohTrilinear, TL4) {
 
 // --- 7.3: further checks -----------------------------------------------------------------------------------------
 
+TEST(CohTrilinear, FailureAt19ModeRatios) {
+    for (const double power : {1.0, 2.0})
+        check_failure_criterion("COH_TRILINEAR", {100000, 30, 12, 0.006, 0.3, 50000, 40, 10, 0.02, 0.9, power}, 0.3,
+                                0.9, power);
+}
+
 TEST(CohTrilinear, FailureDoesNotDependOnTheIncrementSize) {
     for (const double exponent : {0.5, 1.0, 2.0, 3.7}) {
         const Numbers props = with({exponent});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "finite_strain.hpp"
 #include "large_rotation.hpp"
 #include "vumat_block.hpp"
 
@@ -60,12 +61,6 @@ TEST(IsoElastic, I5_Uniaxial) {
     EXPECT_NEAR(answer.stress[0], 147.0, 147.0 * 1e-14);
     EXPECT_EQ(answer.tangent(0, 0), 210000.0);
     EXPECT_NEAR(answer.ddsddt[0], -210000.0 * 1.2e-5, 1e-15);
-}
-
-Matrix3d simple_shear(double gamma) {
-    Matrix3d f = Matrix3d::Identity();
-    f(0, 1) = gamma;
-    return f;
 }
 
 TEST(IsoElastic, I6_TotalLawInSimpleShear) {
@@ -127,6 +122,23 @@ TEST(IsoElastic, ShearWithHughesWingetIsOfFirstOrder) {
         UmatPoint point = hypoelastic();
         follow(point, increments, to_shear_two, hughes_winget_increment);
         EXPECT_NEAR(shear_error(point.stress(), jaumann_stress(2.0)), error, 0.005 * error) << increments;
+    }
+}
+
+// Constrained tension with increments of the middle, 2 (a1 - a0)/(a1 + a0): the logarithmic law but for (d ln a)^2/12
+// of each increment.
+TEST(IsoElastic, MidpointIncrementsApproachTheLogarithmicLaw) {
+    for (const int increments : {4, 16, 64}) {
+        UmatPoint point = hypoelastic();
+        double defect = 0.0, before = 1.0;
+        for (int i = 1; i <= increments; ++i) {
+            const double a = 1.0 + 0.5 * i / increments, increment = std::log(a / before);
+            point.advance(hughes_winget_increment(diagonal_gradient(before, 1, 1), diagonal_gradient(a, 1, 1), solid));
+            defect += std::pow(increment, 3) / 12;
+            before = a;
+        }
+        const double exact = 1200.0 * std::log(1.5);
+        EXPECT_NEAR(exact - point.stress()[0], 1200.0 * defect, 0.01 * 1200.0 * defect) << increments;
     }
 }
 

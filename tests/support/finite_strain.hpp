@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "umat_point.hpp"
 
@@ -16,8 +17,19 @@ inline Matrix3d simple_shear(double g) {
     return f;
 }
 
+// Volume of a particle in a shock tube, t = 0..1: rest, a shock a tenth of the time wide, rest, a rarefaction fan that
+// ends at another volume. Its rate is continuous.
+inline double shock_tube(double t, double shocked, double rarefied) {
+    const auto step = [](double x) {
+        const double y = std::clamp(x, 0.0, 1.0);
+        return y * y * (3.0 - 2.0 * y);
+    };
+    return 1.0 + (shocked - 1.0) * step((t - 0.1) / 0.1) + (rarefied - shocked) * step((t - 0.3) / 0.6);
+}
+
 // Component by component, relative to the largest of those expected.
-inline void expect_close(const Numbers& expected, const Numbers& actual, double relative) {
+inline constexpr double fourteen_digits = 2e-13;
+inline void expect_close(const Numbers& expected, const Numbers& actual, double relative = fourteen_digits) {
     ASSERT_LE(expected.size(), actual.size());
     for (std::size_t i = 0; i < expected.size(); ++i)
         EXPECT_NEAR(actual[i], expected[i], relative * largest(expected)) << "component " << i + 1;
