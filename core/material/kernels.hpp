@@ -114,10 +114,8 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallSt
 
 template <class Model, AnalysisKind kind>
 void umat_call(const void* material, const UmatArguments& a, CallStatus& status) {
-    specialise(
-        *static_cast<const Model*>(material), [&](const auto& kernel) LODE_INLINE_LAMBDA {
-            umat_point<kind>(kernel, a, status);
-        });
+    specialise(*static_cast<const Model*>(material),
+               [&](const auto& kernel) LODE_INLINE_LAMBDA { umat_point<kind>(kernel, a, status); });
 }
 
 // Column of the VUMAT arrays that holds component i of the UMAT order. The arrays of an explicit plane-stress call have
@@ -325,9 +323,8 @@ void vumat_call(const void* material, const VumatArguments& a, CallStatus& statu
     const Model& model = *static_cast<const Model*>(material);
     copy_state(a, model.required_state(kind));
     constexpr bool finite_strain = (Model::description.traits & LODE_FINITE_STRAIN) != 0;
-    specialise(
-        model, [&](const auto& kernel)
-                   LODE_INLINE_LAMBDA { vumat_block<kind, finite_strain>(kernel, a, status); });
+    specialise(model,
+               [&](const auto& kernel) LODE_INLINE_LAMBDA { vumat_block<kind, finite_strain>(kernel, a, status); });
 }
 
 // stepTime = totalTime = 0: the host probes with made-up strains. Elastic answer, no history (conventions page).

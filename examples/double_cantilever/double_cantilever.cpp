@@ -35,7 +35,7 @@ constexpr double interface_constants[] = {100000.0, 30.0, toughness, 100000.0, 3
 constexpr double element_length = 0.2;
 constexpr int elements = static_cast<int>(length / element_length), nodes = elements + 1, unknowns = 2 * nodes;
 constexpr double largest_opening = 10.0, usual_step = 0.02;  // of the loaded ends
-constexpr double force_tolerance = 1e-5;  // rounding of the stiff short elements leaves about 1e-6 N
+constexpr double force_tolerance = 1e-5;                     // rounding of the stiff short elements leaves about 1e-6 N
 
 // --- the interface: one call of umat_ a point ---------------------------------------------------------------------
 

@@ -58,8 +58,8 @@ Case make_case(const lode_model& model, const lode_sample& sample, AnalysisKind 
         const Answer stretched = point.evaluate({.dfgrd1 = f});
         c.reads_deformation = distance(stretched.stress, virgin.stress) > 0.0;
         const Load strained{.dstran = strain};
-        c.reads_field = distance(UmatPoint(point).fields({0.3}).evaluate(strained).stress,
-                                 point.evaluate(strained).stress) > 0.0;
+        c.reads_field =
+            distance(UmatPoint(point).fields({0.3}).evaluate(strained).stress, point.evaluate(strained).stress) > 0.0;
     }
     return c;
 }
