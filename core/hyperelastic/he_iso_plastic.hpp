@@ -77,10 +77,12 @@ struct Kernel {
             const auto flowed = finite_j2::inverse_plastic_strain<full>(f, d, excess, inverse2);
             for (int i = 0; i < n; ++i) cpi[i] = select(r.yields, flowed[i], cpi[i]);
         }
-        const Mask<Real> sound =
-            is_finite(trace(stress) + point.elastic_energy + work + dissipated + finite_j2::sum_of(cpi));
+        Real everything = trace(stress) + point.elastic_energy + work + dissipated + finite_j2::sum_of(cpi);
+        // The tangent squares the trial stress.
+        if constexpr (wants_tangent<T>) everything = everything + inverse_J * square(r.mubar);
+        const Mask<Real> sound = is_finite(everything);
         if (!all(sound)) [[unlikely]]
-            return point.fail(!sound, "the stress is not finite");
+            return point.fail(!sound, "the stress or the tangent is not finite");
         point.stress = without_thickness<kind>(stress);
         point.plastic_dissipation = inverse_J * dissipated;
 

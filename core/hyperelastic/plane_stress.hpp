@@ -123,11 +123,11 @@ LODE_INLINE void set_tangent_of_kind(Tangent<kind>& tangent, const Stress<kind, 
         const double flexibility = 1.0 / c(2, 2);
         for (int j = 0; j < 3; ++j)
             for (int i = 0; i < 3; ++i)
-                tangent(i, j) = c(in_plane[i], in_plane[j]) - c(in_plane[i], 2) * c(2, in_plane[j]) * flexibility;
+                tangent(i, j) = c(in_plane[i], in_plane[j]) - c(in_plane[i], 2) * (c(2, in_plane[j]) * flexibility);
         if (!is_thermal) return;
         const Stress<AnalysisKind::plane_strain, double> s = thermal(c);
         for (int i = 0; i < 3; ++i)
-            tangent.thermal_stress[i] = s[in_plane[i]] - (c(in_plane[i], 2) - stress[i]) * s[2] * flexibility;
+            tangent.thermal_stress[i] = s[in_plane[i]] - (c(in_plane[i], 2) - stress[i]) * (s[2] * flexibility);
     }
 }
 

@@ -349,6 +349,17 @@ TEST(HeIsoPlastic, ImpossibleDeformationsAskForASmallerIncrement) {
     EXPECT_EQ(block.run().stops, 1);
 }
 
+// Finite stresses are not enough: the tangent squares them.
+TEST(HeIsoPlastic, ExtremeStretchesGiveAFiniteTangentOrAskForLess) {
+    for (const auto kind : {solid, plane_strain, plane_stress})
+        for (double strain = -600.0; strain <= 300.0; strain += 20.0) {
+            UmatPoint point(name, kind, steel);
+            const Answer a = point.evaluate({.dfgrd1 = diagonal_gradient(std::exp(strain), 1, 1)});
+            if (a.cut) continue;
+            EXPECT_TRUE(a.tangent.allFinite()) << kind_name(kind) << " ln F11 = " << strain;
+        }
+}
+
 TEST(HeIsoPlastic, RefusesBadConstants) {
     expect_refused(name, {0, .3, 1, 400}, {name, "PROPS(1)"});
     expect_refused(name, {2e5, .5, 1, 400}, {"PROPS(2)"});
