@@ -14,6 +14,10 @@ constexpr HostProfile host_profile(HostChoice choice, double pnewdt_on_entry) {
     return choice == HostChoice::calculix ? HostProfile::calculix : HostProfile::abaqus;
 }
 
+// CalculiX leaves field variables and the element length uninitialised. They are read as these: fields of zero, as it
+// has none, and a length that is not known, which softening models refuse by name.
+inline constexpr double no_fields[8] = {}, unknown_length = 0.0;
+
 // The right stretch U of F = R U, both column by column; returns F itself if it is symmetric already or det F <= 0.
 const double* unrotated(const double* deformation_gradient, double* stretch);
 

@@ -22,6 +22,8 @@ void ask_for_smaller_increment(double& pnewdt, double ratio) {
     if (host_profile(call.material->host, pnewdt) == HostProfile::calculix) [[unlikely]] {
         arguments.drot = nullptr;
         arguments.dfgrd1 = unrotated(arguments.dfgrd1, stretch);
+        arguments.predef = arguments.dpred = no_fields;
+        arguments.celent = &unknown_length;
     }
     CallStatus status;
     call.material->entry->umat[call.kind](call.material->object, arguments, status);

@@ -330,6 +330,9 @@ FirstLook first_look(const Subject& given) {
                 const double change = (answer.stress - start.stress).cwiseAbs().maxCoeff() / h;
                 if (std::isfinite(change)) look.stiffness = std::max(look.stiffness, change);
             }
+        // Where nothing resists, a prescribed traction say, its size is the scale.
+        if (look.stiffness == 0) look.stiffness = base.stress.cwiseAbs().maxCoeff() / subject.scale;
+        if (!(look.stiffness > 0)) look.stiffness = 1;
         if (!bench.layout().cohesive()) {
             doing("a deformation gradient without a strain increment");
             UmatCall stretched = zero;

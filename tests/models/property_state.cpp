@@ -161,12 +161,15 @@ TEST_P(Objectivity, UnderSuperposedRotation) {
 class HostProfile : public testing::TestWithParam<Case> {};
 
 // A host that keeps stress and state in the unrotated frame (CalculiX, known by PNEWDT = -1 on entry): DROT means
-// nothing, and F = R U is read as U.
+// nothing, and F = R U is read as U. It has no field variables and knows no element length: a model that needs one is
+// refused.
 TEST_P(HostProfile, UnrotatedFrame) {
     const Case& c = GetParam();
     Random random(c, 13);
     UmatPoint point = c.point();
+    if (c.has_trait(LODE_USES_CELENT)) point.celent(0.0);
     for (const Step& step : random_path(c, random)) {
+        point.fields(Numbers(point.fields().size(), 0.0));
         const Load load = load_of(point, step);
         const Matrix3d q = random.rotation(c.kind, 3.0);
         Load plain{.dstran = load.dstran}, turned{.dstran = load.dstran, .drot = q, .pnewdt = -1.0};
@@ -175,6 +178,8 @@ TEST_P(HostProfile, UnrotatedFrame) {
         turned.dfgrd1 = q * *plain.dfgrd1;
         const Answer a = point.evaluate(plain), b = point.evaluate(turned);
         ASSERT_EQ(a.done(), b.done());
+        ASSERT_EQ(a.messages.stops, b.messages.stops);
+        if (a.messages.stops > 0) return;
         // The stretch is found again but for rounding.
         const double size = c.reads_deformation ? 64.0 * std::numeric_limits<double>::epsilon() * c.stiffness : 0.0;
         EXPECT_LE(distance(a.stress, b.stress), size);

@@ -154,6 +154,28 @@ TEST(HostProfile, CalculixWorksInTheUnrotatedFrame) {
     EXPECT_NEAR(total.evaluate({.dfgrd1 = turn * stretch, .drot = turn}).stress[1], in_place[0], 1e-12);
 }
 
+// It leaves PREDEF, DPRED and CELENT uninitialised: nothing that stands there by chance counts, and a softening model
+// is refused that has no length of its own.
+TEST(HostProfile, CalculixHasNoFieldsAndNoElementLength) {
+    UmatPoint swelling("ISO_ELASTIC", solid, {1000.0, 0.25, 0.0, 0.01});
+    swelling.fields({3.0});
+    const Load load{.dstran = {1e-3, 0, 0, 0, 0, 0}, .dpred = {1.0}, .pnewdt = -1.0};
+    EXPECT_NEAR(swelling.evaluate(load).stress[0], 1.2, 1e-12);
+    swelling.fields({std::nan("")});
+    EXPECT_NEAR(swelling.evaluate({.dstran = load.dstran, .pnewdt = -1.0}).stress[0], 1.2, 1e-12);
+
+    // E, NU, SIGY, linear law, slope, floor; LREF is the 24th.
+    Numbers softening{210000.0, 0.3, 250.0, 1.0, -500.0, 50.0};
+    softening.resize(24, 0.0);
+    softening[23] = 1.0;
+    const UmatPoint bar("ISO_PLASTIC-SOFT", solid, softening);
+    const Load yielding{.dstran = {1e-2, 0, 0, 0, 0, 0}, .pnewdt = -1.0};
+    const Answer refused = bar.evaluate(yielding);  // CELENT is 1 by chance
+    EXPECT_EQ(refused.messages.stops, 1);
+    EXPECT_NE(refused.first_error().find("CELENT, which = 0"), std::string::npos) << refused.first_error();
+    EXPECT_EQ(bar.evaluate({.dstran = yielding.dstran}).messages.stops, 0) << "any other host means it";
+}
+
 // The (3,1) layout of an explicit host is plane strain, unless the label says PS.
 TEST(Vumat, LabelChoosesPlaneStress) {
     const auto stress = [](const std::string& name, AnalysisKind kind) {
