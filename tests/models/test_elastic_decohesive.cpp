@@ -769,7 +769,7 @@ TEST(ElasticDecohesive, CracksThatDoNotSettleAskForHalfTheIncrement) {
         Numbers state = point.state();
         state[J - 1] = 2;
         state[LC - 1] = 0.015;
-        for (const std::size_t first : {N1 - 1, N2 - 1}) {
+        for (const std::size_t first : {std::size_t{N1 - 1}, std::size_t{N2 - 1}}) {
             const double n[] = {1.0, 0.3 * uniform(generator), 0.3 * uniform(generator)};
             for (std::size_t i = 0; i < 3; ++i) state[first + i] = n[i] / std::hypot(n[0], n[1], n[2]);
         }
