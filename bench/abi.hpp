@@ -1,33 +1,10 @@
-// The argument lists of UMAT and VUMAT as C++ sees them (gfortran: CHARACTER lengths by value at the end).
+// The entry points that are compared: the library's and those of the baselines.
 #pragma once
 
-#include <cstddef>
-
-namespace lode::bench {
-
-using Umat = void(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd, double* rpl,
-                  double* ddsddt, double* drplde, double* drpldt, const double* stran, const double* dstran,
-                  const double* time, const double* dtime, const double* temp, const double* dtemp,
-                  const double* predef, const double* dpred, const char* cmname, const int* ndi, const int* nshr,
-                  const int* ntens, const int* nstatv, const double* props, const int* nprops, const double* coords,
-                  const double* drot, double* pnewdt, const double* celent, const double* dfgrd0, const double* dfgrd1,
-                  const int* noel, const int* npt, const int* layer, const int* kspt, const int* jstep, const int* kinc,
-                  std::size_t cmname_length);
-
-using Vumat = void(const int* nblock, const int* ndir, const int* nshr, const int* nstatev, const int* nfieldv,
-                   const int* nprops, const int* lanneal, const double* step_time, const double* total_time,
-                   const double* dt, const char* cmname, const double* coord_mp, const double* char_length,
-                   const double* props, const double* density, double* strain_inc, const double* rel_spin_inc,
-                   const double* temp_old, const double* stretch_old, const double* defgrad_old,
-                   const double* field_old, const double* stress_old, const double* state_old,
-                   const double* ener_intern_old, const double* ener_inelas_old, const double* temp_new,
-                   const double* stretch_new, const double* defgrad_new, const double* field_new, double* stress_new,
-                   double* state_new, double* ener_intern_new, double* ener_inelas_new, std::size_t cmname_length);
-
-}  // namespace lode::bench
+#include "lode/entry_points.h"
 
 extern "C" {
-lode::bench::Umat umat_, baseline_umat_elastic_, baseline_umat_j2_, baseline_umat_j2_usual_, baseline_umat_j2_voce_,
+lode_umat_function baseline_umat_elastic_, baseline_umat_j2_, baseline_umat_j2_usual_, baseline_umat_j2_voce_,
     baseline_umat_neo_hooke_, empty_umat_;
-lode::bench::Vumat vumat_, baseline_vumat_elastic_, baseline_vumat_j2_, baseline_vumat_j2_simd_;
+lode_vumat_function baseline_vumat_elastic_, baseline_vumat_j2_, baseline_vumat_j2_simd_;
 }

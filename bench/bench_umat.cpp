@@ -81,7 +81,7 @@ benchmark::Counter per_point(int points) {
     return {1e-9 * points, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
 
-void run_umat(benchmark::State& state, Umat* umat, const Material& material, Layout layout) {
+void run_umat(benchmark::State& state, lode_umat_function* umat, const Material& material, Layout layout) {
     try {
         UmatPoints points(umat, material, layout, pool);
         for (auto _ : state) {
@@ -97,7 +97,7 @@ void run_umat(benchmark::State& state, Umat* umat, const Material& material, Lay
 }
 
 // A block stops at the first point that a model cannot follow, so a refused block is driven less far.
-VumatBlock prepared_block(Vumat* vumat, Material material, Layout layout, int count) {
+VumatBlock prepared_block(lode_vumat_function* vumat, Material material, Layout layout, int count) {
     for (int attempt = 0;; ++attempt) {
         try {
             return {vumat, material, layout, count, distinct_points};
@@ -108,7 +108,8 @@ VumatBlock prepared_block(Vumat* vumat, Material material, Layout layout, int co
     }
 }
 
-void run_vumat(benchmark::State& state, Vumat* vumat, const Material& material, Layout layout, int count, bool copy) {
+void run_vumat(benchmark::State& state, lode_vumat_function* vumat, const Material& material, Layout layout, int count,
+               bool copy) {
     try {
         VumatBlock block = prepared_block(vumat, material, layout, count);
         for (auto _ : state) {
@@ -128,7 +129,7 @@ class Registry {
   public:
     std::vector<Case> cases;
 
-    void umat(Case c, Umat* function, const Material& material, Layout layout, std::string name = {}) {
+    void umat(Case c, lode_umat_function* function, const Material& material, Layout layout, std::string name = {}) {
         c.interface = Interface::umat;
         c.benchmark = name.empty() ? "umat/" + c.group + "/" + c.material + "/" + c.kind : name;
         benchmark::RegisterBenchmark(c.benchmark.c_str(),
@@ -136,7 +137,7 @@ class Registry {
         cases.push_back(std::move(c));
     }
 
-    void vumat(Case c, Vumat* function, const Material& material, Layout layout, int count) {
+    void vumat(Case c, lode_vumat_function* function, const Material& material, Layout layout, int count) {
         c.interface = Interface::vumat;
         c.points = count;
         c.benchmark = "vumat" + std::to_string(count) + "/" + c.group + "/" + c.material + "/" + c.kind;
@@ -251,8 +252,8 @@ void register_overhead(Registry& registry) {
         first.resize(count, 0.0);
         return first;
     };
-    const auto add = [&](const char* description, const std::string& name, Umat* umat, const char* material_name,
-                         std::vector<double> props, double scale) {
+    const auto add = [&](const char* description, const std::string& name, lode_umat_function* umat,
+                         const char* material_name, std::vector<double> props, double scale) {
         Material m = hand_written(std::move(props), scale);
         m.name = material_name;
         m.state_count = 4;

@@ -6,4 +6,4 @@ extern "C" void empty_umat_(double*, double*, double*, double*, double*, double*
                             const double*, const double*, const char*, const int*, const int*, const int*, const int*,
                             const double*, const int*, const double*, const double*, double*, const double*,
                             const double*, const double*, const int*, const int*, const int*, const int*, const int*,
-                            const int*, std::size_t) {}
+                            const int*, size_t) {}

@@ -25,8 +25,8 @@ void remember(const char* text, std::size_t length) {
     last_error.assign(text, length);
 }
 
-std::array<char, 80> padded(const std::string& name) {
-    std::array<char, 80> text;
+std::array<char, LODE_CMNAME_LENGTH> padded(const std::string& name) {
+    std::array<char, LODE_CMNAME_LENGTH> text;
     text.fill(' ');
     std::copy_n(name.begin(), std::min(name.size(), text.size()), text.begin());
     return text;
@@ -105,7 +105,7 @@ std::string take_error() {
     return std::exchange(last_error, {});
 }
 
-UmatPoints::UmatPoints(Umat* umat, const Material& material, Layout layout, int count)
+UmatPoints::UmatPoints(lode_umat_function* umat, const Material& material, Layout layout, int count)
     : umat_(umat),
       material_(material),
       layout_(layout),
@@ -206,7 +206,7 @@ void Arena::allocate(const std::vector<std::pair<std::span<double>*, std::size_t
     }
 }
 
-VumatBlock::VumatBlock(Vumat* vumat, const Material& material, Layout layout, int count, int distinct)
+VumatBlock::VumatBlock(lode_vumat_function* vumat, const Material& material, Layout layout, int count, int distinct)
     : vumat_(vumat),
       material_(material),
       layout_(layout),

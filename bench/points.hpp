@@ -37,7 +37,7 @@ inline constexpr int path_increments = 8;
 class UmatPoints {
   public:
     // Throws std::runtime_error if the material refuses or a point cannot be driven.
-    UmatPoints(Umat* umat, const Material& material, Layout layout, int count);
+    UmatPoints(lode_umat_function* umat, const Material& material, Layout layout, int count);
 
     // Copies STRESS and STATEV of the start of the increment, as every host does, and calls for each point. The copy is
     // part of all numbers, also of those of the baselines. All points are copied before the first call: a call right
@@ -49,11 +49,11 @@ class UmatPoints {
   private:
     void call(std::size_t point);
 
-    Umat* umat_;
+    lode_umat_function* umat_;
     Material material_;
     Layout layout_;
     int count_, ntens_, nstatv_, nprops_;
-    std::array<char, 80> cmname_{};
+    std::array<char, LODE_CMNAME_LENGTH> cmname_{};
     std::vector<double> stress_, state_, strain_, strain_increment_, deformation_start_, deformation_end_;
     std::vector<double> work_stress_, work_state_;
     std::array<double, 6> ddsddt_{}, drplde_{};
@@ -79,7 +79,7 @@ class Arena {
 class VumatBlock {
   public:
     // A block larger than `distinct` repeats that many different points.
-    VumatBlock(Vumat* vumat, const Material& material, Layout layout, int count, int distinct);
+    VumatBlock(lode_vumat_function* vumat, const Material& material, Layout layout, int count, int distinct);
 
     void run();
     double active_share() const { return active_share_; }
@@ -91,11 +91,11 @@ class VumatBlock {
     void allocate(std::size_t points);
     std::array<std::span<double>*, 19> arrays();
 
-    Vumat* vumat_;
+    lode_vumat_function* vumat_;
     Material material_;
     Layout layout_;
     int count_, nstatv_, nprops_;
-    std::array<char, 80> cmname_{};
+    std::array<char, LODE_CMNAME_LENGTH> cmname_{};
     double active_share_ = 0;
     Arena arena_;
     std::span<double> coord_, length_, density_, strain_increment_, spin_, temperature_, stretch_old_, stretch_new_,

@@ -7,37 +7,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "lode/entry_points.h"
 #include "lode/lode.h"
 
 namespace lode::host {
 
-using CharacterLength = std::size_t;  // of CMNAME, by value after the last argument
-inline constexpr CharacterLength material_name_length = 80;
+inline constexpr std::size_t material_name_length = LODE_CMNAME_LENGTH;
 
-extern "C" {
-using UmatFunction = void (*)(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
-                              double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
-                              const double* dstran, const double* time, const double* dtime, const double* temp,
-                              const double* dtemp, const double* predef, const double* dpred, const char* cmname,
-                              const int* ndi, const int* nshr, const int* ntens, const int* nstatv, const double* props,
-                              const int* nprops, const double* coords, const double* drot, double* pnewdt,
-                              const double* celent, const double* dfgrd0, const double* dfgrd1, const int* noel,
-                              const int* npt, const int* layer, const int* kspt, const int* jstep, const int* kinc,
-                              CharacterLength);
-}
+using UmatFunction = lode_umat_function*;
 // Real: double, or float in a library for single-precision hosts.
 template <class Real>
-using VumatOf = void (*)(const int* nblock, const int* ndir, const int* nshr, const int* nstatev, const int* nfieldv,
-                         const int* nprops, const int* lanneal, const Real* step_time, const Real* total_time,
-                         const Real* dt, const char* cmname, const Real* coord_mp, const Real* char_length,
-                         const Real* props, const Real* density, Real* strain_inc, const Real* rel_spin_inc,
-                         const Real* temp_old, const Real* stretch_old, const Real* defgrad_old, const Real* field_old,
-                         const Real* stress_old, const Real* state_old, const Real* ener_intern_old,
-                         const Real* ener_inelas_old, const Real* temp_new, const Real* stretch_new,
-                         const Real* defgrad_new, const Real* field_new, Real* stress_new, Real* state_new,
-                         Real* ener_intern_new, Real* ener_inelas_new, CharacterLength);
+using VumatOf = std::conditional_t<std::is_same_v<Real, float>, lode_vumat_sp_function, lode_vumat_function>*;
 using VumatFunction = VumatOf<double>;
 
 // The name in 80 characters, blank padded, upper case as Abaqus has it.

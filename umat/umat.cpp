@@ -1,6 +1,7 @@
 // The implicit entry point, by the Abaqus/Standard convention (conventions page, "UMAT meaning of the arrays").
 #include "call.hpp"
 #include "host_profile.hpp"
+#include "lode/entry_points.h"
 #include "record/recorder.hpp"
 
 namespace {
@@ -53,7 +54,7 @@ extern "C" LODE_API void umat_(double* stress, double* statev, double* ddsdde, d
                                const double* props, const int* nprops, const double* coords, const double* drot,
                                double* pnewdt, const double* celent, const double* dfgrd0, const double* dfgrd1,
                                const int* noel, const int* npt, const int* layer, const int* kspt, const int* kstep,
-                               const int* kinc) {
+                               const int* kinc, std::size_t) {
     if (record::active) [[unlikely]]
         return record::record(
             {stress, statev, ddsdde, sse,    spd,    scd,    rpl, ddsddt, drplde, drpldt, stran, dstran, time,

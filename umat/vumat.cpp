@@ -1,6 +1,7 @@
 // The explicit entry point, by the Abaqus/Explicit convention (conventions page, "VUMAT meaning of the arrays").
 #include "vumat.hpp"
 
+#include "lode/entry_points.h"
 #include "record/recorder.hpp"
 
 namespace {
@@ -46,7 +47,7 @@ extern "C" LODE_API void vumat_(const int* nblock, const int* ndir, const int* n
                                 const double* stress_old, const double* state_old, const double* ener_intern_old,
                                 const double* ener_inelas_old, const double* temp_new, const double* stretch_new,
                                 const double* defgrad_new, const double* field_new, double* stress_new,
-                                double* state_new, double* ener_intern_new, double* ener_inelas_new) {
+                                double* state_new, double* ener_intern_new, double* ener_inelas_new, std::size_t) {
     record::run_or_record<double>(
         {nblock,          ndir,     nshr,        nstatev,     nfieldv,     nprops,     lanneal,   step_time,
          total_time,      dt,       cmname,      coord_mp,    char_length, props,      density,   strain_inc,

@@ -114,7 +114,7 @@ extern "C" LODE_API void vumat_(const int* nblock, const int* ndir, const int* n
                                 const float* state_old, const float* ener_intern_old, const float* ener_inelas_old,
                                 const float* temp_new, const float* stretch_new, const float* defgrad_new,
                                 const float* field_new, float* stress_new, float* state_new, float* ener_intern_new,
-                                float* ener_inelas_new) {
+                                float* ener_inelas_new, std::size_t) {
     record::run_or_record<float>(
         {nblock,          ndir,     nshr,        nstatev,     nfieldv,     nprops,     lanneal,   step_time,
          total_time,      dt,       cmname,      coord_mp,    char_length, props,      density,   strain_inc,

@@ -12,14 +12,7 @@
 #include <fstream>
 #include <vector>
 
-extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
-                      double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
-                      const double* dstran, const double* time, const double* dtime, const double* temp,
-                      const double* dtemp, const double* predef, const double* dpred, const char* cmname,
-                      const int* ndi, const int* nshr, const int* ntens, const int* nstatv, const double* props,
-                      const int* nprops, const double* coords, const double* drot, double* pnewdt, const double* celent,
-                      const double* dfgrd0, const double* dfgrd1, const int* noel, const int* npt, const int* layer,
-                      const int* kspt, const int* kstep, const int* kinc);
+#include "lode/entry_points.h"
 
 namespace {
 
@@ -51,8 +44,8 @@ bool update(const InterfacePoint& before, double separation, InterfacePoint& aft
     const int ndi = 1, nshr = 1, ntens = 2, nstatv = state_count, nprops = 6, one = 1;
     const double zero = 0.0, zeros[2] = {}, time[2] = {}, identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, coords[3] = {};
     const double dstran[2] = {separation - before.separation, 0.0}, celent = 1.0, dtime = 1.0;
-    static const std::array<char, 80> name = [] {
-        std::array<char, 80> text;
+    static const std::array<char, LODE_CMNAME_LENGTH> name = [] {
+        std::array<char, LODE_CMNAME_LENGTH> text;
         text.fill(' ');
         std::memcpy(text.data(), "COH_TRIANGULAR-ADHESIVE", 23);
         return text;
@@ -62,7 +55,8 @@ bool update(const InterfacePoint& before, double separation, InterfacePoint& aft
     after = before;
     umat_(stress, after.state.data(), ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, zeros, dstran, time,
           &dtime, &zero, &zero, &zero, &zero, name.data(), &ndi, &nshr, &ntens, &nstatv, interface_constants, &nprops,
-          coords, identity, &pnewdt, &celent, identity, identity, &one, &one, &one, &one, &one, &one);
+          coords, identity, &pnewdt, &celent, identity, identity, &one, &one, &one, &one, &one, &one,
+          LODE_CMNAME_LENGTH);
     after.separation = separation;
     after.traction = stress[0];
     after.stiffness = ddsdde[0];

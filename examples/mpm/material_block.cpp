@@ -3,15 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-extern "C" void vumat_(const int* nblock, const int* ndir, const int* nshr, const int* nstatev, const int* nfieldv,
-                       const int* nprops, const int* lanneal, const double* step_time, const double* total_time,
-                       const double* dt, const char* cmname, const double* coord_mp, const double* char_length,
-                       const double* props, const double* density, double* strain_inc, const double* rel_spin_inc,
-                       const double* temp_old, const double* stretch_old, const double* defgrad_old,
-                       const double* field_old, const double* stress_old, const double* state_old,
-                       const double* ener_intern_old, const double* ener_inelas_old, const double* temp_new,
-                       const double* stretch_new, const double* defgrad_new, const double* field_new,
-                       double* stress_new, double* state_new, double* ener_intern_new, double* ener_inelas_new);
+#include "lode/entry_points.h"
 
 namespace mpm {
 
@@ -22,7 +14,7 @@ Material material_of(const Settings& s, Group group) {
     const double cracks = group == elastic ? 0.0 : 1.0, closest_angle = 30.0;
     Material m;
     m.name = std::string("ELASTIC_DECOHESIVE-") + label[group];
-    m.name.resize(80, ' ');
+    m.name.resize(LODE_CMNAME_LENGTH, ' ');
     // E, NU, TAU_NF, TAU_SF, TAU_SM, F_C, G_F, F_B, C_N, C_S, C_PSI, CRIT, SOFT, N_C, ALPHA_TH, MU, N_X, N_Y, N_Z,
     // L_C, SNAP, INTEG
     m.props = {bar::E,        bar::nu,
@@ -81,7 +73,7 @@ void MaterialBlock::call(double time, double time_step) {
            spin_.data(), temperature_.data(), stretch_old_.data(), gradient_old_.data(), &no_field, stress_old_.data(),
            state_old_.data(), internal_old_.data(), inelastic_old_.data(), temperature_.data(), stretch_new_.data(),
            gradient_new_.data(), &no_field, stress_new_.data(), state_new_.data(), internal_new_.data(),
-           inelastic_new_.data());
+           inelastic_new_.data(), LODE_CMNAME_LENGTH);
 }
 
 double MaterialBlock::probe() {

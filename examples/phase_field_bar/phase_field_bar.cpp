@@ -8,14 +8,7 @@
 #include <string>
 #include <vector>
 
-extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
-                      double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
-                      const double* dstran, const double* time, const double* dtime, const double* temp,
-                      const double* dtemp, const double* predef, const double* dpred, const char* cmname,
-                      const int* ndi, const int* nshr, const int* ntens, const int* nstatv, const double* props,
-                      const int* nprops, const double* coords, const double* drot, double* pnewdt, const double* celent,
-                      const double* dfgrd0, const double* dfgrd1, const int* noel, const int* npt, const int* layer,
-                      const int* kspt, const int* kstep, const int* kinc);
+#include "lode/entry_points.h"
 
 namespace {
 
@@ -45,7 +38,7 @@ struct Element {
         std::copy_n(state, nstatv, new_state);
         umat_(s, new_state, ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, stran, dstran, time, &dtime, &zero,
               &zero, &phase, &change, name, &ndi, &nshr, &ntens, &nstates, props.data(), &nprops, coords, unit, &pnewdt,
-              &one, unit, unit, &number, &number, &number, &number, &number, &number);
+              &one, unit, unit, &number, &number, &number, &number, &number, &number, LODE_CMNAME_LENGTH);
         new_stress = s[0];
         stiffness = ddsdde[0];
     }

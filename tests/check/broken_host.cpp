@@ -7,20 +7,8 @@
 #include <limits>
 #include <string_view>
 
+#include "lode/entry_points.h"
 #include "replay/kinematics.hpp"
-
-extern "C" {
-void umat_(double*, double*, double*, double*, double*, double*, double*, double*, double*, double*, const double*,
-           const double*, const double*, const double*, const double*, const double*, const double*, const double*,
-           const char*, const int*, const int*, const int*, const int*, const double*, const int*, const double*,
-           const double*, double*, const double*, const double*, const double*, const int*, const int*, const int*,
-           const int*, const int*, const int*);
-void vumat_(const int*, const int*, const int*, const int*, const int*, const int*, const int*, const double*,
-            const double*, const double*, const char*, const double*, const double*, const double*, const double*,
-            double*, const double*, const double*, const double*, const double*, const double*, const double*,
-            const double*, const double*, const double*, const double*, const double*, const double*, const double*,
-            double*, double*, double*, double*);
-}
 
 namespace {
 
@@ -75,7 +63,7 @@ void implicit(std::string_view mistake) {
         umat_(stress.data(), statev.data(), ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, stran.data(),
               dstran.data(), time, &dtime, &zero, &zero, &zero, &zero, name, &ndi, &nshr, &ntens, &nstatv, props,
               &nprops, coords, drot.data(), &pnewdt, &celent, F0.data(), F1.data(), &one, &one, &one, &one,
-              jstep.data(), &k);
+              jstep.data(), &k, LODE_CMNAME_LENGTH);
         stran = turned_strain + layout.strain_components(motion.strain);
         total += dtime_true;
     }
@@ -120,7 +108,7 @@ void explicit_host(std::string_view mistake) {
                coordinates.data(), length.data(), props, density.data(), strain.data(), spin.data(), zero.data(),
                stretch[0].data(), gradient[0].data(), zero.data(), stress.data(), state.data(), intern.data(),
                inelas.data(), zero.data(), stretch[1].data(), gradient[1].data(), zero.data(), stress_new.data(),
-               state_new.data(), intern_new.data(), inelas_new.data());
+               state_new.data(), intern_new.data(), inelas_new.data(), LODE_CMNAME_LENGTH);
         stress = stress_new;
         state = state_new;
         intern = intern_new;

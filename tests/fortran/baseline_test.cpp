@@ -14,8 +14,6 @@
 
 namespace {
 
-using lode::bench::Umat;
-using lode::bench::Vumat;
 using Vector = std::array<double, 6>;
 
 struct Result {
@@ -24,8 +22,8 @@ struct Result {
     std::array<double, 36> tangent{};
 };
 
-std::array<char, 80> cmname(const std::string& name) {
-    std::array<char, 80> text;
+std::array<char, LODE_CMNAME_LENGTH> cmname(const std::string& name) {
+    std::array<char, LODE_CMNAME_LENGTH> text;
     text.fill(' ');
     std::copy(name.begin(), name.end(), text.begin());
     return text;
@@ -33,8 +31,8 @@ std::array<char, 80> cmname(const std::string& name) {
 
 constexpr std::array<double, 9> identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-Result call(Umat* umat, const std::vector<double>& props, const Vector& stress, double state, const Vector& dstran,
-            const std::array<double, 9>& f = identity) {
+Result call(lode_umat_function* umat, const std::vector<double>& props, const Vector& stress, double state,
+            const Vector& dstran, const std::array<double, 9>& f = identity) {
     Result r;
     r.stress = stress;
     r.state = state;
@@ -60,7 +58,7 @@ double mises(const Vector& s) {
 
 struct Case {
     const char* name;
-    Umat* umat;
+    lode_umat_function* umat;
     std::vector<double> props;
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
@@ -178,7 +176,7 @@ struct Block {
     std::vector<double> stress, state, intern, inelas;
 };
 
-Block call(Vumat* vumat, const std::vector<double>& props, std::vector<double> strain, const Block& old) {
+Block call(lode_vumat_function* vumat, const std::vector<double>& props, std::vector<double> strain, const Block& old) {
     Block r = old;
     const std::vector<double> zero(9 * block, 0.0), density(block, 2.5);
     const double time = 1, dt = 1e-3;
@@ -192,7 +190,8 @@ Block call(Vumat* vumat, const std::vector<double>& props, std::vector<double> s
 }
 
 // Point by point the explicit forms give what the UMAT gives; shears change place and size.
-void expect_vumat_equals_umat(Vumat* vumat, Umat* umat, const std::vector<double>& props, bool inelastic) {
+void expect_vumat_equals_umat(lode_vumat_function* vumat, lode_umat_function* umat, const std::vector<double>& props,
+                              bool inelastic) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
     Block old{std::vector<double>(6 * block), std::vector<double>(block), std::vector<double>(block),

@@ -25,7 +25,7 @@ class ThirdParty : public ::testing::Test {
         lode_utility_on_exit([] { throw Ended{}; });
         library = dlopen(THIRD_PARTY_LIBRARY, RTLD_NOW | RTLD_LOCAL);
         ASSERT_NE(library, nullptr) << dlerror();
-        umat = reinterpret_cast<lode::bench::Umat*>(dlsym(library, "umat_"));
+        umat = reinterpret_cast<lode_umat_function*>(dlsym(library, "umat_"));
         ASSERT_NE(umat, nullptr);
     }
     void TearDown() override {
@@ -39,7 +39,7 @@ class ThirdParty : public ::testing::Test {
         const double time[2] = {0, 0}, dtime = 1, temp = 0, none[1] = {0}, celent = 1;
         const int ntens = ndi + nshr, nstatv = ntens + 4, nprops = static_cast<int>(props.size()), one = 1;
         const int jstep[4] = {1, 1, 0, 0};
-        std::array<char, 80> name;
+        std::array<char, LODE_CMNAME_LENGTH> name;
         name.fill(' ');
         std::copy_n("PRAGER", 6, name.begin());
         umat(stress.data(), state.data(), tangent.data(), &sse, &spd, &scd, &rpl, unused.data(), unused.data(), &drpldt,
@@ -50,7 +50,7 @@ class ThirdParty : public ::testing::Test {
 
     static constexpr std::array<double, 9> identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     void* library = nullptr;
-    lode::bench::Umat* umat = nullptr;
+    lode_umat_function* umat = nullptr;
     std::vector<double> props = {200000, 0.3, 400, 2000};
     int ndi = 3, nshr = 3;
     std::array<double, 6> stress{};

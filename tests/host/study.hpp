@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "guard.hpp"
+#include "needs.hpp"
 #include "study/libraries.hpp"
 #include "study/paths.hpp"
 
@@ -21,10 +22,7 @@ inline const Libraries& libraries() {
 inline const Library& library() { return libraries().main(); }
 
 inline bool has_model(const std::string& keyword) { return library().model_of(keyword) != nullptr; }
-
-// A build may be content with some of the models.
-#define LODE_NEEDS(keyword) \
-    if (!has_model(keyword)) GTEST_SKIP() << keyword << " is not in this build"
+#define LODE_NEEDS(keyword) LODE_NEEDS_PRESENT(has_model(keyword), keyword)
 
 // A material without a path.
 inline Scenario material(const std::string& name, std::vector<double> constants, Kind kind = Kind::solid) {

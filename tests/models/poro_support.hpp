@@ -53,6 +53,42 @@ inline void expect_refused(const char* name, const Numbers& props, const std::ve
 // STATEV of page 45.
 enum { PE = 1, THETA, DP_UD, STORAGE, MOB1, MOB2, MOB3, DT_P, EZZ };
 
+// Data set I (E = 10000, NU = 0.25, ALPHA = 0.8, KU = 9000) by any model: `digits` is the relative error allowed where
+// the page's numbers are exact. PI1: drained oedometer, then pressure from the host.
+inline void expect_drained_oedometer(UmatPoint point, double digits) {
+    point.advance({.dstran = {0, 0, -1e-3, 0, 0, 0}});
+    expect_stress(point.stress(), {-4, -4, -12, 0, 0, 0}, digits);
+    expect_close(point.state(THETA), -8e-4, digits);
+    expect_close(point.state(DP_UD), 2.91666666666667, digits);
+    point.advance({.dpred = {3.0}});
+    expect_stress(point.stress(), {-6.4, -6.4, -14.4, 0, 0, 0}, digits);
+    expect_close(point.state(PE), 3.0, digits);
+    expect_close(point.state(THETA), 2.28571428571429e-5, 1e-11);
+}
+// PI2: undrained oedometer.
+inline void expect_undrained_oedometer(UmatPoint point, double digits) {
+    const Load load{.dstran = {0, 0, -1e-3, 0, 0, 0}};
+    const VumatPoint explicit_point = explicit_answer(point, load);
+    const Answer a = point.advance(load);
+    const Numbers expected = {-6.33333333333333, -6.33333333333333, -14.3333333333333, 0, 0, 0};
+    expect_stress(point.stress(), expected, digits);
+    expect_close(point.state(PE), 2.91666666666667, digits);
+    EXPECT_EQ(point.state(THETA), 0.0);
+    expect_close(a.tangent(0, 0), 14333.3333333333, digits);
+    expect_close(a.tangent(0, 1), 6333.33333333333, digits);
+    expect_close(a.tangent(3, 3), 4000.0, digits);
+    expect_stress(explicit_point.stress, expected, digits);
+    expect_close(explicit_point.state[PE - 1], 2.91666666666667, digits);
+}
+// PI3: consolidation, transport by the host.
+inline void expect_consolidation(UmatPoint point, double digits) {
+    point.advance({.dstran = {0, 0, -1e-3, 0, 0, 0}});
+    point.advance({.dstran = {0, 0, -2e-4, 0, 0, 0}, .dpred = {-2.0}});
+    expect_stress(point.stress(), {-6, -6, -15.6, 0, 0, 0}, digits);
+    expect_close(point.state(PE), 1.5, 1e-13);
+    expect_close(point.state(THETA), -5.48571428571429e-4, 1e-13);
+}
+
 // d of sets T and O.
 inline const Numbers general_strain = {1e-3, -5e-4, 2e-4, 1e-3, 0.0, 5e-4};
 inline const Numbers plane_strain = {1e-3, -5e-4, 1e-3};

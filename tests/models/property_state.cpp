@@ -167,7 +167,7 @@ TEST_P(HostProfile, UnrotatedFrame) {
     const Case& c = GetParam();
     Random random(c, 13);
     UmatPoint point = c.point();
-    if (c.has_trait(LODE_USES_CELENT)) point.celent(0.0);
+    point.celent(0.0);
     for (const Step& step : random_path(c, random)) {
         point.fields(Numbers(point.fields().size(), 0.0));
         const Load load = load_of(point, step);

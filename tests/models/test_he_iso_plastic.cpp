@@ -197,6 +197,7 @@ TEST(HeIsoPlastic, IsOfFirstOrder) {
 }
 
 TEST(HeIsoPlastic, WithoutYieldingItIsMooneyRivlin) {
+    LODE_NEEDS("MOONEY_RIVLIN");
     for (const double uj : {0.0, 1.0, 2.0})
         for (const AnalysisKind kind : {solid, plane_strain, plane_stress}) {
             Matrix3d f = general();
@@ -206,7 +207,6 @@ TEST(HeIsoPlastic, WithoutYieldingItIsMooneyRivlin) {
             const Answer a = UmatPoint(name, kind, props).advance({.dtemp = 30.0, .dfgrd1 = f});
             UmatPoint other("MOONEY_RIVLIN-TEST", kind, {E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu)), 0, uj, 1e-3});
             const Answer b = other.evaluate({.dtemp = 30.0, .dfgrd1 = f});
-            if (find_model("MOONEY_RIVLIN-TEST") == nullptr) GTEST_SKIP() << "not in this build";
             ASSERT_TRUE(b.done());
             expect_close(b.stress, a.stress, 1e-13);
             EXPECT_LE((a.tangent - b.tangent).cwiseAbs().maxCoeff(), 1e-13 * b.tangent.cwiseAbs().maxCoeff());

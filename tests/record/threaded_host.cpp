@@ -5,11 +5,7 @@
 #include <thread>
 #include <vector>
 
-extern "C" void umat_(double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
-                      const double*, const double*, const double*, const double*, const double*, const double*,
-                      const double*, const double*, const char*, const int*, const int*, const int*, const int*,
-                      const double*, const int*, const double*, const double*, double*, const double*, const double*,
-                      const double*, const int*, const int*, const int*, const int*, const int*, const int*);
+#include "lode/entry_points.h"
 
 namespace {
 
@@ -25,7 +21,7 @@ void run(int element, long calls) {
         const int kinc = static_cast<int>(call);
         umat_(stress, statev, ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, stran, dstran, time, &dtime,
               &zero, &zero, &zero, &zero, name, &ndi, &nshr, &ntens, &nstatv, props, &nprops, coords, identity, &pnewdt,
-              &celent, identity, identity, &element, &one, &one, &one, &one, &kinc);
+              &celent, identity, identity, &element, &one, &one, &one, &one, &kinc, LODE_CMNAME_LENGTH);
         if (call == 50) {
             std::printf("running\n");
             std::fflush(stdout);

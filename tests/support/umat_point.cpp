@@ -94,7 +94,7 @@ UmatPoint& UmatPoint::raw_name(std::string cmname) {
     raw_name_ = std::move(cmname);
     return *this;
 }
-UmatPoint& UmatPoint::entry_point(UmatFunction umat) {
+UmatPoint& UmatPoint::entry_point(lode_umat_function* umat) {
     entry_ = umat;
     return *this;
 }
@@ -137,7 +137,8 @@ Answer UmatPoint::evaluate(const Load& load) const {
            reals.input("COORDS", Numbers{0.1, 0.2, 0.3}), reals.input("DROT", column_major(load.drot)), pnewdt,
            reals.input("CELENT", celent_), reals.input("DFGRD0", column_major(f_)),
            reals.input("DFGRD1", column_major(load.dfgrd1.value_or(f_))), number("NOEL", 1), number("NPT", 1),
-           number("LAYER", 1), number("KSPT", 1), number("KSTEP", 1), number("KINC", increment_ + 1));
+           number("LAYER", 1), number("KSPT", 1), number("KSTEP", 1), number("KINC", increment_ + 1),
+           LODE_CMNAME_LENGTH);
 
     if (const std::string where = reals.damage() + integers.damage(); !where.empty())
         ADD_FAILURE() << name_ << ": UMAT wrote" << where;

@@ -16,6 +16,7 @@
 #include "entry_points.hpp"
 #include "host_messages.hpp"
 #include "lode/material/kind.hpp"
+#include "needs.hpp"
 
 namespace lode::test {
 
@@ -58,9 +59,9 @@ class UmatPoint {
     UmatPoint& celent(double value);
     UmatPoint& deformation_gradient(const Matrix3d& f);
     UmatPoint& time(double step, double total);
-    UmatPoint& layout(int ndi, int nshr);       // for kinds that do not exist
-    UmatPoint& raw_name(std::string cmname);    // exactly these bytes, neither padded nor cut
-    UmatPoint& entry_point(UmatFunction umat);  // another umat_, e.g. from dlsym
+    UmatPoint& layout(int ndi, int nshr);              // for kinds that do not exist
+    UmatPoint& raw_name(std::string cmname);           // exactly these bytes, neither padded nor cut
+    UmatPoint& entry_point(lode_umat_function* umat);  // another umat_, e.g. from dlsym
 
     // Calls UMAT; the point stays where it is.
     Answer evaluate(const Load& load) const;
@@ -97,7 +98,7 @@ class UmatPoint {
     double sse_ = 0.0, spd_ = 0.0, scd_ = 0.0;
     int increment_ = 0;
     std::optional<std::string> raw_name_;
-    UmatFunction entry_ = &umat_;
+    lode_umat_function* entry_ = &umat_;
 };
 
 // Voigt components <-> tensor. `shear_factor` is 1 for stress; 1/2 for engineering shears, 2 on the way back.
@@ -110,6 +111,7 @@ Numbers rotated_strain(const Numbers& e, AnalysisKind kind, const Matrix3d& q);
 
 // The model of the library under test with this keyword (the text before the first '-'), or null.
 const lode_model* find_model(const std::string& material_name);
+#define LODE_NEEDS(keyword) LODE_NEEDS_PRESENT(::lode::test::find_model(keyword) != nullptr, keyword)
 
 // "bit for bit the same", also for NaN.
 bool identical(const Numbers& a, const Numbers& b);

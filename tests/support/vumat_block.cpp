@@ -128,7 +128,7 @@ HostMessages VumatBlock::call(VumatFunctionOf<Real> vumat) {
           reals.input("fieldOld", field_old), reals.input("stressOld", stress), reals.input("stateOld", state),
           reals.input("enerInternOld", intern), reals.input("enerInelasOld", inelas), reals.input("tempNew", temp_new),
           reals.input("stretchNew", stretch_new), reals.input("defgradNew", f_new), reals.input("fieldNew", field_new),
-          stress_new, state_new, intern_new, inelas_new);
+          stress_new, state_new, intern_new, inelas_new, LODE_CMNAME_LENGTH);
     if (const std::string where = reals.damage() + integers.damage(); !where.empty())
         ADD_FAILURE() << name_ << ": VUMAT wrote" << where;
     HostMessages messages = std::move(captured_messages());

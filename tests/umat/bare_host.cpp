@@ -42,7 +42,7 @@ struct Point {
         umat_(stress.data(), statev.data(), tangent.data(), &sse, &spd, &scd, &rpl, ddsddt.data(), drplde.data(),
               &drpldt, stran.data(), dstran.data(), time, &dtime, &temp, &dtemp, &predef, &dpred, cmname.data(), &ndi,
               &nshr, &ntens, &nstatv, props.data(), &nprops, coords, identity, &pnewdt, &celent, identity, f, &one,
-              &one, &one, &one, &one, &one);
+              &one, &one, &one, &one, &one, LODE_CMNAME_LENGTH);
     }
 };
 
@@ -64,7 +64,7 @@ void call_vumat(const std::string& name, int points, int ndir, int nshr, int nst
            ones.data(), props.data(), ones.data(), strain.data(), zeros.data(), temperature.data(), stretch.data(),
            stretch.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), zeros.data(), temperature.data(),
            stretch.data(), stretch.data(), zeros.data(), stress_new.data(), state_new.data(), intern.data(),
-           inelas.data());
+           inelas.data(), LODE_CMNAME_LENGTH);
 }
 
 // One line a number: what it is, the scale its rounding errors have, and the number.

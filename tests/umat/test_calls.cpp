@@ -237,7 +237,7 @@ TEST(Vumat, TwoDirectComponents) {
     clear_captured_messages();
     vumat_(&nblock, &ndir, &nshr, &nstatev, &nfield, &nprops, &lanneal, &time, &time, &time, cmname.data(), in, one,
            props, one, strain_inc, in, in, in, in, in, stress_old, in, in, in, in, in, in, in, stress_new, state_new,
-           intern, inelas);
+           intern, inelas, LODE_CMNAME_LENGTH);
     EXPECT_EQ(reals.damage(), "");
     if (captured_messages().stops > 0) {
         // Not by chance, because the guard zone is not a number.

@@ -5,26 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "lode/entry_points.h"
 #include "recorder.hpp"
 
 namespace {
 
 using namespace lode::record;
-
-constexpr std::size_t material_name_length = 80;  // the hidden length of CMNAME
-
-using UmatFunction = void (*)(double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
-                              const double*, const double*, const double*, const double*, const double*, const double*,
-                              const double*, const double*, const char*, const int*, const int*, const int*, const int*,
-                              const double*, const int*, const double*, const double*, double*, const double*,
-                              const double*, const double*, const int*, const int*, const int*, const int*, const int*,
-                              const int*, std::size_t);
-using VumatFunction = void (*)(const int*, const int*, const int*, const int*, const int*, const int*, const int*,
-                               const double*, const double*, const double*, const char*, const double*, const double*,
-                               const double*, const double*, double*, const double*, const double*, const double*,
-                               const double*, const double*, const double*, const double*, const double*, const double*,
-                               const double*, const double*, const double*, const double*, double*, double*, double*,
-                               double*, std::size_t);
 
 // Without the library there is nothing to run.
 [[noreturn]] void stop(const char* what, const char* detail) {
@@ -47,19 +33,19 @@ void* wrapped(const char* symbol) {
 }
 
 void run(const UmatCall& c) {
-    static const auto umat = reinterpret_cast<UmatFunction>(wrapped("umat_"));
+    static const auto umat = reinterpret_cast<lode_umat_function*>(wrapped("umat_"));
     umat(c.stress, c.statev, c.ddsdde, c.sse, c.spd, c.scd, c.rpl, c.ddsddt, c.drplde, c.drpldt, c.stran, c.dstran,
          c.time, c.dtime, c.temp, c.dtemp, c.predef, c.dpred, c.cmname, c.ndi, c.nshr, c.ntens, c.nstatv, c.props,
          c.nprops, c.coords, c.drot, c.pnewdt, c.celent, c.dfgrd0, c.dfgrd1, c.noel, c.npt, c.layer, c.kspt, c.kstep,
-         c.kinc, material_name_length);
+         c.kinc, LODE_CMNAME_LENGTH);
 }
 void run(const VumatCall<double>& c) {
-    static const auto vumat = reinterpret_cast<VumatFunction>(wrapped("vumat_"));
+    static const auto vumat = reinterpret_cast<lode_vumat_function*>(wrapped("vumat_"));
     vumat(c.nblock, c.ndir, c.nshr, c.nstatev, c.nfieldv, c.nprops, c.lanneal, c.step_time, c.total_time, c.dt,
           c.cmname, c.coord_mp, c.char_length, c.props, c.density, c.strain_inc, c.rel_spin_inc, c.temp_old,
           c.stretch_old, c.defgrad_old, c.field_old, c.stress_old, c.state_old, c.ener_intern_old, c.ener_inelas_old,
           c.temp_new, c.stretch_new, c.defgrad_new, c.field_new, c.stress_new, c.state_new, c.ener_intern_new,
-          c.ener_inelas_new, material_name_length);
+          c.ener_inelas_new, LODE_CMNAME_LENGTH);
 }
 
 }  // namespace
@@ -76,7 +62,7 @@ extern "C" __attribute__((visibility("default"))) void umat_(
     const int* ndi, const int* nshr, const int* ntens, const int* nstatv, const double* props, const int* nprops,
     const double* coords, const double* drot, double* pnewdt, const double* celent, const double* dfgrd0,
     const double* dfgrd1, const int* noel, const int* npt, const int* layer, const int* kspt, const int* kstep,
-    const int* kinc) {
+    const int* kinc, std::size_t) {
     const UmatCall call{stress, statev, ddsdde, sse,   spd,    scd,    rpl,    ddsddt, drplde, drpldt,
                         stran,  dstran, time,   dtime, temp,   dtemp,  predef, dpred,  cmname, ndi,
                         nshr,   ntens,  nstatv, props, nprops, coords, drot,   pnewdt, celent, dfgrd0,
@@ -92,7 +78,8 @@ extern "C" __attribute__((visibility("default"))) void vumat_(
     const double* rel_spin_inc, const double* temp_old, const double* stretch_old, const double* defgrad_old,
     const double* field_old, const double* stress_old, const double* state_old, const double* ener_intern_old,
     const double* ener_inelas_old, const double* temp_new, const double* stretch_new, const double* defgrad_new,
-    const double* field_new, double* stress_new, double* state_new, double* ener_intern_new, double* ener_inelas_new) {
+    const double* field_new, double* stress_new, double* state_new, double* ener_intern_new, double* ener_inelas_new,
+    std::size_t) {
     run_or_record<double>(
         {nblock,          ndir,     nshr,        nstatev,     nfieldv,     nprops,     lanneal,   step_time,
          total_time,      dt,       cmname,      coord_mp,    char_length, props,      density,   strain_inc,

@@ -1,0 +1,12 @@
+// Tests that need models besides their own. A build may be content with some of the models (-DLODE_MODELS=...): there,
+// and only there, such a test is left out. In a complete build a model that is missing is a failure.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#define LODE_NEEDS_PRESENT(present, keyword)                              \
+    if (!(present)) {                                                     \
+        if (LODE_HAS_ALL_MODELS) FAIL() << keyword << " is missing";      \
+        GTEST_SKIP() << keyword << " was not chosen with -DLODE_MODELS="; \
+    }                                                                     \
+    static_assert(true)
