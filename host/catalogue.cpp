@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cards.hpp"
+#include "lode/material/property_places.hpp"
 #include "text.hpp"
 
 namespace lode::host {
@@ -60,7 +61,6 @@ std::string default_of(const lode_parameter& p) {
 }
 
 // Repeated entries move those behind them on.
-int repeated_by(const lode_parameter& p) { return static_cast<int>(p.flags >> LODE_REPEATED_SHIFT); }
 bool has_repeated_entries(const lode_model& model) {
     return std::any_of(model.parameters, model.parameters + model.parameter_count,
                        [](const lode_parameter& p) { return repeated_by(p) != 0; });

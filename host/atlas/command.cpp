@@ -16,6 +16,7 @@
 #include "../study/paths.hpp"
 #include "../study/variants.hpp"
 #include "../text.hpp"
+#include "constants.hpp"
 #include "element_size.hpp"
 #include "ellipticity.hpp"
 #include "error_map.hpp"
@@ -144,17 +145,26 @@ Sheets failure_maps(const Subject& s, bool quiet) {
     return {failure_sheet(rates, s.stem("failures"), s.title("random increments that are refused"))};
 }
 
+Sheets constants_maps(const Subject& s, bool quiet) {
+    Meter meter("atlas: " + s.stem("constants"), s.sample.constant_count, quiet);
+    const auto ranges = constant_ranges(s.scenario(), s.model, s.library, s.sample.strain_scale, &meter);
+    const auto unlimited = [](const ConstantRange& r) { return !r.lower.limited && !r.upper.limited; };
+    if (std::all_of(ranges.begin(), ranges.end(), unlimited)) return {};
+    return {constants_sheet(ranges, s.stem("constants"), s.title("how far each constant may be varied"))};
+}
+
 struct MapKind {
     const char* name;
     Sheets (*make)(const Subject&, bool quiet);
 };
-constexpr std::array<MapKind, 7> map_kinds{{{"error", error_maps},
+constexpr std::array<MapKind, 8> map_kinds{{{"error", error_maps},
                                             {"failures", failure_maps},
                                             {"time_step", time_step_maps},
                                             {"element_size", element_size_maps},
                                             {"ellipticity", ellipticity_maps},
                                             {"rotation", rotation_maps},
-                                            {"limit_point", limit_point_maps}}};
+                                            {"limit_point", limit_point_maps},
+                                            {"constants", constants_maps}}};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atlas/constants.hpp"
 #include "atlas/element_size.hpp"
 #include "atlas/ellipticity.hpp"
 #include "atlas/error_map.hpp"
@@ -399,6 +400,75 @@ TEST(LimitPoint, IsTheStrengthOfASofteningSolid) {
 TEST(LimitPoint, IsTheStrengthOfAnInterface) {
     LODE_NEEDS("COH_TRIANGULAR");
     expect_limit_point(material("COH_TRIANGULAR-X", {100000, 30, 0.3, 50000, 40, 0.9}, Kind::cohesive_2d), 30, 5e-3);
+}
+
+// --- constants ----------------------------------------------------------------------------------------------------
+
+// Limits that the pages state by formula: 40 (a law must not create energy), 45 (KU above K), 30 (no snap-back).
+TEST(Constants, EndWhereThePagesSay) {
+    LODE_NEEDS("COH_TRIANGULAR");
+    LODE_NEEDS("PORO_ISO");
+    LODE_NEEDS("ISO_SOFTENING");
+    struct Limit {
+        const char* symbol;
+        double lower, upper;  // 0: none
+        const char* word;     // in the message
+    };
+    const auto expect_limits = [](const Scenario& scene, const std::vector<Limit>& limits) {
+        SCOPED_TRACE(scene.material.name);
+        const lode_model* model = library().model_of(scene.material.name);
+        const Muted muted;
+        const auto ranges = constant_ranges(scene, *model, library(), 1e-3, nullptr);
+        for (const Limit& expected : limits) {
+            SCOPED_TRACE(expected.symbol);
+            const auto found = std::find_if(ranges.begin(), ranges.end(),
+                                            [&](const ConstantRange& r) { return r.symbol == expected.symbol; });
+            ASSERT_NE(found, ranges.end());
+            for (const auto& [limit, value] :
+                 {std::pair(found->lower, expected.lower), {found->upper, expected.upper}}) {
+                EXPECT_EQ(limit.limited, value != 0);
+                if (value == 0) continue;
+                EXPECT_NEAR(limit.value / value, 1, 1e-8);
+                EXPECT_NE(limit.message.find(expected.word), std::string::npos) << limit.message;
+                EXPECT_TRUE(limit.works);
+            }
+        }
+    };
+    const double K = 1e5, strength = 30, toughness = 0.3;
+    expect_limits(material("COH_TRIANGULAR-X", {K, strength, toughness, 5e4, 40, 0.9}, Kind::cohesive_2d),
+                  {{"K_N", strength * strength / (2 * toughness), 0, "GIC"},
+                   {"SIG_N", 0, std::sqrt(2 * K * toughness), "GIC"},
+                   {"GIC", strength * strength / (2 * K), 0, "GIC"}});
+    const double E = 14400, nu = 0.2, KU = 13000;
+    expect_limits(material("PORO_ISO-X", {E, nu, 0.8, KU}), {{"E", 0, 3 * (1 - 2 * nu) * KU, "KU"},
+                                                             {"NU", 0, 0.5 - E / (6 * KU), "KU"},
+                                                             {"KU", E / (3 * (1 - 2 * nu)), 0, "KU"},
+                                                             {"ALPHA", 0, 1, "ALPHA"}});
+    // h < 2 GIC C/SIGC^2, C the modulus of constrained compression; h = 1 here.
+    const double modulus_ratio = (1 - nu) / ((1 + nu) * (1 - 2 * nu)), GIC = 0.1, SIGC = 3, young = 30000;
+    expect_limits(material("ISO_SOFTENING-X", {young, nu, SIGC, 0, 1, GIC, 1, GIC}),
+                  {{"E", SIGC * SIGC / (2 * GIC * modulus_ratio), 0, "snap back"},
+                   {"SIGC", 0, std::sqrt(2 * GIC * young * modulus_ratio), "snap back"},
+                   {"GIC", SIGC * SIGC / (2 * young * modulus_ratio), 0, "snap back"}});
+}
+
+// The library takes a material or says why not: whatever it takes can be used up to the limit itself.
+TEST(Constants, WorkUpToTheirLimits) {
+    int limits = 0;
+    for (const lode_model* model : library().models()) {
+        const lode_sample& sample = model->samples[0];
+        const Kind kind = kinds_of(model->kinds & sample.kinds).front();
+        const Muted muted;
+        for (const ConstantRange& range :
+             constant_ranges(sample_scenario(*model, sample, kind), *model, library(), sample.strain_scale, nullptr))
+            for (const ConstantLimit& limit : {range.lower, range.upper}) {
+                if (!limit.limited) continue;
+                ++limits;
+                EXPECT_TRUE(limit.works) << model->keyword << " " << range.symbol << " = " << limit.value;
+                EXPECT_NE(limit.message.find(model->keyword), std::string::npos) << limit.message;
+            }
+    }
+    EXPECT_GT(limits, static_cast<int>(library().models().size()));
 }
 
 }  // namespace
