@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
 
     lode::host::AtlasOptions atlas_options;
     CLI::App* const atlas = app.add_subcommand("atlas", "Map where the methods of a material fail");
-    atlas->add_option("material", atlas_options.targets, "KEYWORD or KEYWORD-LABEL");
+    atlas->add_option("target", atlas_options.targets, "Decks, or materials: KEYWORD or KEYWORD-LABEL");
     atlas->add_flag("--all", atlas_options.all, "Every material of the library");
     atlas->add_flag("--first", atlas_options.first, "Only the first sample of each model");
     atlas->add_option("-m,--map", atlas_options.maps, "Maps to draw (default: all that make sense)")
@@ -129,7 +129,8 @@ int run(int argc, char** argv) {
                       "Shared object with umat_ or vumat_ (default: liblode.so)");
     atlas->add_option("-o,--output", atlas_options.output_directory,
                       "Directory for the files (default: the current one)");
-    atlas->add_option("-k,--kind", atlas_options.kinds, "Kinds, e.g. 3d plane_stress (default: the fullest)");
+    atlas->add_option("-k,--kind", atlas_options.kinds,
+                      "Kinds, e.g. 3d plane_stress (default: that of a deck, the fullest of a material)");
     atlas->add_flag("-q,--quiet", atlas_options.quiet, "Print errors only");
 
     lode::host::AdviseOptions advise_options;

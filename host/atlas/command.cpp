@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <list>
 #include <optional>
 
 #include "../cards.hpp"
 #include "../guard.hpp"
+#include "../replay/deck.hpp"
+#include "../replay/driver.hpp"
 #include "../study/libraries.hpp"
 #include "../study/material_point.hpp"
 #include "../study/meter.hpp"
@@ -34,14 +36,24 @@ struct Subject {
     const lode_sample& sample;
     Kind kind;
     const Library& library;
+    const Scenario* deck = nullptr;  // the scene that the material comes from
 
     Scenario scenario() const {
-        Scenario scene = sample_scenario(model, sample, kind);
+        Scenario scene = as_in_deck(sample_scenario(model, sample, kind));
         if (scene.analysis.large_rotation && (model.traits & LODE_FINITE_STRAIN) == 0)
             scene.analysis.large_rotation = false;
         return scene;
     }
-    std::string name() const { return material_name(model, sample); }
+    // With the material and the surroundings of the deck.
+    Scenario as_in_deck(Scenario scene) const {
+        if (deck == nullptr) return scene;
+        scene.material = deck->material;
+        scene.analysis.element_length = deck->analysis.element_length;
+        scene.analysis.temperature = deck->analysis.temperature;
+        if (!deck->analysis.fields.empty()) scene.analysis.fields = deck->analysis.fields;
+        return scene;
+    }
+    std::string name() const { return deck != nullptr ? deck->stem : material_name(model, sample); }
     std::string stem(const std::string& map) const { return fmt::format("{}_{}_{}", name(), name_of(kind), map); }
     std::string title(const std::string& what) const { return fmt::format("{}, {}: {}", name(), name_of(kind), what); }
     bool cohesive() const { return is_cohesive(kind); }
@@ -108,7 +120,7 @@ Sheets ellipticity_maps(const Subject& s, bool) {
     if (s.cohesive() || s.kind == Kind::uniaxial || s.library.umat() == nullptr) return {};
     std::vector<std::pair<std::string, Ellipticity>> paths;
     for (Scenario& path : built_in_paths(s.model, s.sample, s.kind))
-        paths.emplace_back(path_name(path), ellipticity_along(with_increments(path, 50), s.library));
+        paths.emplace_back(path_name(path), ellipticity_along(with_increments(s.as_in_deck(path), 50), s.library));
     return {ellipticity_sheet(paths, s.stem("ellipticity"), s.title("acoustic tensor along the built-in paths"))};
 }
 
@@ -166,6 +178,45 @@ constexpr std::array<MapKind, 8> map_kinds{{{"error", error_maps},
                                             {"limit_point", limit_point_maps},
                                             {"constants", constants_maps}}};
 
+struct Target {
+    const lode_model* model;
+    const lode_sample* sample;
+    const Scenario* deck;  // null for the library's own samples
+};
+
+// The material of a deck as a sample; its strain scale is the largest strain of the deck's path.
+class DeckMaterial {
+  public:
+    DeckMaterial(Scenario scene, const Library& library) : scene_(std::move(scene)) {
+        model_ = library.model_of(scene_.material.name);
+        if (model_ == nullptr)
+            throw Failure(Status::usage,
+                          fmt::format("{}: the library has no model of that name", scene_.material.name));
+        Scenario path = scene_;
+        resolve(path, library);
+        double strain = 0;
+        drive(path, library, [&](const Record& r) { strain = std::max(strain, r.point.strain.cwiseAbs().maxCoeff()); });
+        const std::vector<double>& constants = scene_.material.constants;
+        sample_ = {scene_.stem.c_str(),
+                   scene_.title.c_str(),
+                   constants.data(),
+                   static_cast<int>(constants.size()),
+                   strain > 0 ? strain : model_->samples[0].strain_scale,
+                   model_->kinds};
+    }
+    DeckMaterial(const DeckMaterial&) = delete;
+    DeckMaterial& operator=(const DeckMaterial&) = delete;
+
+    const lode_model& model() const { return *model_; }
+    const lode_sample& sample() const { return sample_; }
+    const Scenario& scene() const { return scene_; }
+
+  private:
+    Scenario scene_;
+    const lode_model* model_ = nullptr;
+    lode_sample sample_{};
+};
+
 }  // namespace
 
 std::vector<std::string> atlas_maps() {
@@ -175,30 +226,46 @@ std::vector<std::string> atlas_maps() {
 }
 
 Status atlas(const AtlasOptions& options) {
-    const Library library(options.library);
+    std::vector<Scenario> decks;
+    std::string request = options.library;
+    for (const auto& target : options.targets) {
+        if (!is_deck(target)) continue;
+        decks.push_back(read_named_deck(target));
+        if (request.empty()) request = decks.back().material.library;
+    }
+    const Library library(request);
     std::vector<std::pair<const lode_model*, const lode_sample*>> samples;
     if (options.all) samples = all_samples(library);
     for (const auto& target : options.targets)
-        for (const auto& sample : samples_named(library, target)) samples.push_back(sample);
+        if (!is_deck(target))
+            for (const auto& sample : samples_named(library, target)) samples.push_back(sample);
     if (options.first) std::erase_if(samples, [](const auto& s) { return s.second != &s.first->samples[0]; });
-    if (samples.empty()) throw Failure(Status::usage, "nothing to map: name materials, or say --all");
+    std::vector<Target> targets;
+    for (const auto& [model, sample] : samples) targets.push_back({model, sample, nullptr});
+    std::list<DeckMaterial> materials;
+    for (Scenario& deck : decks) {
+        const DeckMaterial& material = materials.emplace_back(std::move(deck), library);
+        targets.push_back({&material.model(), &material.sample(), &material.scene()});
+    }
+    if (targets.empty()) throw Failure(Status::usage, "nothing to map: name decks or materials, or say --all");
 
     const std::string directory = output_directory(options.output_directory);
-    Meter meter("atlas", static_cast<int>(samples.size() * map_kinds.size()), options.quiet);
+    Meter meter("atlas", static_cast<int>(targets.size() * map_kinds.size()), options.quiet);
     int sheets = 0;
-    for (const auto& [model, sample] : samples) {
+    for (const auto& [model, sample, deck] : targets) {
         const std::vector<Kind> served = kinds_of(model->kinds & sample->kinds);
+        const Kind usual = deck != nullptr ? deck->analysis.kind : served.front();
         std::vector<Kind> kinds;
         for (const Kind kind : served)
             if (options.kinds.empty()
-                    ? kind == served.front()
+                    ? kind == usual
                     : std::find(options.kinds.begin(), options.kinds.end(), name_of(kind)) != options.kinds.end())
                 kinds.push_back(kind);
         for (const Kind kind : kinds)
             for (const MapKind& map : map_kinds) {
                 const bool wanted = options.maps.empty() ||
                                     std::find(options.maps.begin(), options.maps.end(), map.name) != options.maps.end();
-                const Subject subject{*model, *sample, kind, library};
+                const Subject subject{*model, *sample, kind, library, deck};
                 meter.advance(subject.stem(map.name));
                 if (!wanted) continue;
                 const Muted muted;  // maps go where materials refuse

@@ -10,12 +10,12 @@
 namespace lode::host {
 
 struct AtlasOptions {
-    std::vector<std::string> targets;  // KEYWORD or KEYWORD-LABEL
+    std::vector<std::string> targets;  // decks; KEYWORD or KEYWORD-LABEL
     bool all = false;                  // every material of the library
     bool first = false;                // only the first sample of each model
     std::vector<std::string> maps;     // empty: all that make sense for the material
     std::string library, output_directory = ".";
-    std::vector<std::string> kinds;  // empty: the fullest kind
+    std::vector<std::string> kinds;  // empty: that of a deck, the fullest of a material
     bool quiet = false;
 };
 

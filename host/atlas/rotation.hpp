@@ -18,15 +18,15 @@ struct RotationError {
     double error = 0;
 };
 
-// A material stretched by `strain`, then turned by 360 degrees about axis 3: change of the stress relative to its norm.
+// A material stretched by `strain`, then turned by 360 degrees about axis 3: change of the stress relative to the
+// largest on the way.
 double turn_error(const Scenario& scenario, const Library& library, double strain, int increments);
 // Simple shear to `gamma`, the body at rest before.
 Components sheared_stress(const Scenario& scenario, const Library& library, double gamma, int increments);
 // Stretch by `a`, shear by `a`, unstretch, unshear: what stress is left.
 Components cycled_stress(const Scenario& scenario, const Library& library, double a, int increments);
 
-// All three, both interfaces, 4 to 1024 increments. Errors of shear are relative to the stress of the finest run, what
-// the cycle leaves to the stress of a first stretch.
+// All three, both interfaces, 4 to 1024 increments. Errors are relative to the largest stress on the way.
 std::vector<RotationError> rotation_errors(const Scenario& scenario, const Library& library, double strain_scale);
 
 Sheet rotation_sheet(const std::vector<RotationError>& errors, const std::string& stem, const std::string& title);

@@ -17,11 +17,6 @@
 namespace lode::host {
 namespace {
 
-bool is_deck(const std::string& target) {
-    std::error_code ignored;
-    return target.ends_with(".toml") || std::filesystem::is_regular_file(target, ignored);
-}
-
 Kind kind_named(const std::string& name) {
     std::vector<std::string_view> names;
     for (const KindName& entry : kind_names) {
@@ -60,10 +55,7 @@ Status chart(const ChartOptions& options) {
     std::string request = options.library;
     for (const auto& target : options.targets) {
         if (!is_deck(target)) continue;
-        scenes.push_back(read_deck(target));
-        // Decks are mostly called deck.toml; their directory tells them apart.
-        if (scenes.back().stem == "deck")
-            scenes.back().stem = std::filesystem::absolute(target).parent_path().filename().string();
+        scenes.push_back(read_named_deck(target));
         if (request.empty()) request = scenes.back().material.library;
     }
     const Libraries libraries(request, options.single_library);

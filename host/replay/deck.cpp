@@ -202,4 +202,15 @@ Scenario read_deck(const std::string& path) {
     return scenario;
 }
 
+bool is_deck(const std::string& argument) {
+    std::error_code ignored;
+    return argument.ends_with(".toml") || std::filesystem::is_regular_file(argument, ignored);
+}
+
+Scenario read_named_deck(const std::string& path) {
+    Scenario scenario = read_deck(path);
+    if (scenario.stem == "deck") scenario.stem = std::filesystem::absolute(path).parent_path().filename().string();
+    return scenario;
+}
+
 }  // namespace lode::host

@@ -11,6 +11,11 @@ namespace lode::host {
 // Throws BadDeck: file:line: key: what is wrong and what is legal.
 Scenario read_deck(const std::string& path);
 
+// Commands that take decks or materials: whether an argument is a deck, and the deck under a name that tells it from
+// others. Decks are mostly called deck.toml; then it is that of the directory.
+bool is_deck(const std::string& argument);
+Scenario read_named_deck(const std::string& path);
+
 }  // namespace lode::host
 
 #endif

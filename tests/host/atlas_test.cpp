@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atlas/command.hpp"
 #include "atlas/constants.hpp"
 #include "atlas/element_size.hpp"
 #include "atlas/ellipticity.hpp"
@@ -14,6 +15,7 @@
 #include "cards.hpp"
 #include "study.hpp"
 #include "study/variants.hpp"
+#include "support.hpp"
 
 namespace lode::host::test {
 namespace {
@@ -469,6 +471,37 @@ TEST(Constants, WorkUpToTheirLimits) {
             }
     }
     EXPECT_GT(limits, static_cast<int>(library().models().size()));
+}
+
+// A deck brings its own constants, element length and kind.
+TEST(Atlas, MapsTheMaterialOfADeck) {
+    LODE_NEEDS("ISO_SOFTENING");
+    const Directory directory;
+    directory.write("beam.toml",
+                    "[material]\nname = \"ISO_SOFTENING-X\"\nconstants = [30000, 0.2, 3, 0, 1, 0.1, 1, 0.1]\n"
+                    "[analysis]\nkind = \"plane_strain\"\nelement_length = 50\n"
+                    "[[step]]\nincrements = 20\nstrain = { 11 = 5e-4 }\n");
+    const Muted muted;
+    AtlasOptions options;
+    options.library = LODE_TEST_LIBRARY;
+    options.targets = {directory.file("beam.toml")};
+    options.maps = {"element_size"};
+    options.output_directory = directory.file("");
+    options.quiet = true;
+    EXPECT_EQ(atlas(options), Status::success);
+    std::istringstream csv(directory.read("beam_plane_strain_element_size.csv"));
+    std::string header, line;
+    std::getline(csv, header);
+    int rows = 0;
+    while (std::getline(csv, line)) ++rows;
+    EXPECT_EQ(rows, 7) << header;
+    options.maps = {"constants"};
+    EXPECT_EQ(atlas(options), Status::success);
+    const double largest = std::sqrt(2 * 0.1 * 30000 * 0.8 / (1.2 * 0.6) / 50);
+    const std::string constants = directory.read("beam_plane_strain_constants.csv");
+    const std::size_t row = constants.find("3,SIGC,3,upper,");
+    ASSERT_NE(row, std::string::npos) << constants;
+    EXPECT_NEAR(std::stod(constants.substr(row + 15)) / largest, 1, 1e-8);
 }
 
 }  // namespace
