@@ -280,7 +280,7 @@ void register_overhead(Registry& registry) {
 int main(int argc, char** argv) {
     std::string report;
     // Several short repetitions in random order: a disturbance of the machine does not hit one case alone.
-    std::vector<std::string> arguments = {argv[0], "--benchmark_min_time=0.02", "--benchmark_repetitions=7",
+    std::vector<std::string> arguments = {argv[0], "--benchmark_min_time=0.01", "--benchmark_repetitions=5",
                                           "--benchmark_enable_random_interleaving=true",
                                           "--benchmark_display_aggregates_only=true"};
     for (int i = 1; i < argc; ++i) {

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <sstream>
 
@@ -738,6 +740,43 @@ TEST(CamClay, RandomIncrementsNeverFail) {
         }
     }
     EXPECT_GT(yielded, 30000);
+}
+
+// The same through UMAT: from a thousand states of as many clays, increments up to 30 % strain. None is refused, the
+// stress is on or inside the surface, dissipation is not negative. LODE_TEST_INCREMENTS asks for more than 10^5.
+TEST(CamClayRandom, NoIncrementFails) {
+    const char* wanted = std::getenv("LODE_TEST_INCREMENTS");
+    constexpr int states = 1000;
+    const int increments = (wanted != nullptr ? std::atoi(wanted) : 100000) / states;
+    RandomClay random;
+    int plastic = 0, restarts = 0;
+    for (int state = 0; state < states; ++state) {
+        const Numbers props = random.props();
+        const double p_ref = props[0], M = props[3], pressure = p_ref * random.log_uniform(0.1, 10.0);
+        UmatPoint fresh("CAM_CLAY-RANDOM", solid, props);
+        fresh.stress({-pressure, -pressure, -pressure, 0, 0, 0});
+        UmatPoint point = fresh;
+        for (int i = 0; i < increments; ++i) {
+            const double dissipated = point.spd();
+            const Answer answer = point.step({.dstran = random.strain(random.log_uniform(1e-12, 0.3))});
+            ASSERT_TRUE(answer.done()) << "state " << state << ", increment " << i << ", seed 7";
+            ASSERT_TRUE(std::isfinite(largest(answer.stress)) && answer.tangent.allFinite());
+            ASSERT_LE(yield_function(point, M), 1e-10);
+            ASSERT_GE(answer.spd, dissipated);
+            if (point.state(zone) != 0.0) {
+                ++plastic;
+                ASSERT_GE(yield_function(point, M), -1e-10);
+            }
+            // What no soil has seen: e^20 times the reference pressure, or less than e^-20 of it.
+            if (std::abs(std::log(point.state(p) / p_ref)) > 20.0 || point.state(pc) > 1e9 * p_ref) {
+                point = fresh;
+                ++restarts;
+            }
+        }
+    }
+    std::printf("[ %d increments from %d states, %d plastic, %d walks begun again ]\n", increments * states, states,
+                plastic, restarts);
+    EXPECT_GT(plastic, increments * states / 10);
 }
 
 // The source's Newton on three unknowns, from such states: how often it fails ("Cost and accuracy"), and that its
