@@ -136,9 +136,10 @@ void Output::write_mid_plane(const dealii::DoFHandler<3>& dofs, const MaterialPo
             std::fprintf(data.get(), "%.6g %.6g %.6g\n%.6g %.6g %.6g\n\n%.6g %.6g %.6g\n%.6g %.6g %.6g\n\n\n", p[0],
                          p[1], p[8], p[2], p[3], p[8], p[4], p[5], p[8], p[6], p[7], p[8]);
     std::fprintf(script.get(),
-                 "set terminal pngcairo size 480,960 background 'white'\n"
+                 "set terminal pngcairo size 400,780 background 'white'\n"
                  "set output 'mid_plane.png'\n"
                  "set title '%s'\n"
+                 "set lmargin 0\nset rmargin 3\nset tmargin 2\nset bmargin 0\n"
                  "set view map\nset size ratio -1\nunset key\nset border 0\nunset xtics\nunset ytics\n"
                  "set pm3d corners2color c1\n"
                  "set palette defined (0 '#f4f1ea', 0.15 '#f7d88c', 0.45 '#ee7f3b', 0.75 '#b3263c', 1 '#3b0f4d')\n"
