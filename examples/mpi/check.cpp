@@ -230,10 +230,12 @@ void notched_bar(const Host& host, Report& report) {
     report.remark = text("  %d elements, %d unknowns, %d points, %d Newton and %d linear iterations; seconds:\n",
                          alone.count("elements"), alone.count("unknowns"), alone.count("points"),
                          alone.count("newton_iterations"), alone.count("linear_iterations"));
-    report.remark += text("  %5s %9s %9s %9s %9s\n", "ranks", "assembly", "umat", "solve", "total");
+    report.remark +=
+        text("  %5s %9s %9s %9s %9s %14s\n", "ranks", "assembly", "umat", "solve", "total", "processor time");
     for (const Run* r : {&alone, &run})
-        report.remark += text("  %5d %9.2f %9.2f %9.2f %9.2f\n", r->count("ranks"), r->of_seconds("assembly"),
-                              r->of_seconds("umat"), r->of_seconds("solve"), r->of_seconds("total"));
+        report.remark +=
+            text("  %5d %9.2f %9.2f %9.2f %9.2f %14.2f\n", r->count("ranks"), r->of_seconds("assembly"),
+                 r->of_seconds("umat"), r->of_seconds("solve"), r->of_seconds("total"), r->of_seconds("processor"));
 }
 
 void limit_load(const Host& host, Report& report) {
@@ -323,16 +325,16 @@ void bad_constants(const Host& host, Report& report) {
                            [&](const char* word) { return run.log.find(word) != std::string::npos; });
     };
     const Run bad = host.run("bad_constants", 2, material("ISO_PLASTIC-STEEL", "210000, 0.7, 250, 1, 2000"));
-    report.push_back({"NU = 0.7: all ranks end", "an exit status, within 20 s",
-                      verdict(bad.status > 0 && bad.seconds < 20), 0, text("status %d", bad.status)});
+    report.push_back({"NU = 0.7: all ranks end", "an exit status, within a minute",
+                      verdict(bad.status > 0 && bad.seconds < 60), 0, text("status %d", bad.status)});
     report.push_back({"NU = 0.7: message", "names material, constant, value",
                       verdict(contains(bad, {"ISO_PLASTIC-STEEL", "NU", "0.7"})), 0, ""});
     // Passed on as it is: the library finds out at its first call and ends the program through XIT.
     const Run few =
         host.run("few_state_variables", 2,
                  material("ISO_PLASTIC-STEEL", "210000, 0.3, 250, 1, 2000", "state_variables = 2") + small_mesh);
-    report.push_back({"NSTATV = 2: all ranks end, through XIT", "an exit status, within 20 s",
-                      verdict(few.status > 0 && few.seconds < 20), 0, text("status %d", few.status)});
+    report.push_back({"NSTATV = 2: all ranks end, through XIT", "an exit status, within a minute",
+                      verdict(few.status > 0 && few.seconds < 60), 0, text("status %d", few.status)});
     report.push_back({"NSTATV = 2: message", "names material and NSTATV",
                       verdict(contains(few, {"ISO_PLASTIC-STEEL", "NSTATV"})), 0, ""});
 }

@@ -2,14 +2,7 @@
 
 #include <algorithm>
 
-extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
-                      double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
-                      const double* dstran, const double* time, const double* dtime, const double* temp,
-                      const double* dtemp, const double* predef, const double* dpred, const char* cmname,
-                      const int* ndi, const int* nshr, const int* ntens, const int* nstatv, const double* props,
-                      const int* nprops, const double* coords, const double* drot, double* pnewdt, const double* celent,
-                      const double* dfgrd0, const double* dfgrd1, const int* noel, const int* npt, const int* layer,
-                      const int* kspt, const int* kstep, const int* kinc);
+#include "lode/entry_points.h"
 
 namespace bar {
 
@@ -61,7 +54,8 @@ double MaterialPoints::update(std::size_t point, const Increment& increment, con
     umat_(stress, state, tangent, &energy[0], &energy[1], &energy[2], &heat, stress_by_temperature, heat_by_strain,
           &heat_by_temperature, strain, strain_increment, time, &increment.size, &zero, &zero, &zero, &zero,
           name_.data(), &ndi, &nshr, &ntens, &nstatv, constants_.data(), &nprops, p.coordinates, unit, &pnewdt,
-          &p.element_length, unit, unit, &p.element, &p.number, &one, &one, &one, &increment.number);
+          &p.element_length, unit, unit, &p.element, &p.number, &one, &one, &one, &increment.number,
+          LODE_CMNAME_LENGTH);
     return pnewdt;
 }
 

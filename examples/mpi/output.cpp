@@ -77,7 +77,7 @@ void Output::write_fields(const dealii::DoFHandler<3>& dofs, const dealii::Trili
         out.add_data_vector(states[k], state_names_[k], dealii::DataOut<3>::type_cell_data);
     out.build_patches();
     const std::string file =
-        out.write_vtu_with_pvtu_record(directory_, "bar", static_cast<unsigned>(increment), communicator_, 4, 1);
+        out.write_vtu_with_pvtu_record(directory_, "bar", static_cast<unsigned>(increment), communicator_, 4);
     series_.emplace_back(time, file);
     if (dealii::Utilities::MPI::this_mpi_process(communicator_) == 0) {
         std::ofstream list(directory_ + "bar.pvd");
@@ -106,10 +106,11 @@ void Output::write_tables(const Result& r) const {
                  "finished = %s\nranks = %d\nelements = %llu\nunknowns = %llu\npoints = %llu\nincrements = %zu\n"
                  "newton_iterations = %d\nlinear_iterations = %d\nrefused_by_material = %d\nrefused_by_newton = %d\n"
                  "ranks_asking = %d\nlinear_solver = \"%s\"\n[seconds]\nassembly = %.4f\numat = %.4f\nsolve = "
-                 "%.4f\ntotal = %.4f\n",
+                 "%.4f\ntotal = %.4f\nprocessor = %.4f\n",
                  r.finished ? "true" : "false", r.ranks, r.elements, r.unknowns, r.points, r.increments.size(),
                  newton_iterations, linear_iterations, r.refused_by_material, r.refused_by_newton, r.ranks_asking,
-                 r.linear_solver.c_str(), r.seconds.assembly, r.seconds.umat, r.seconds.solve, r.seconds.total);
+                 r.linear_solver.c_str(), r.seconds.assembly, r.seconds.umat, r.seconds.solve, r.seconds.total,
+                 r.seconds.processor);
 }
 
 void Output::write_mid_plane(const dealii::DoFHandler<3>& dofs, const MaterialPoints& points, int watched) const {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include "material_points.hpp"
 #include "mesh.hpp"
@@ -373,6 +374,7 @@ double Problem::Implementation::largest_watched() const {
 
 Result Problem::Implementation::run() {
     const double start = MPI_Wtime();
+    const std::clock_t processor_start = std::clock();
     const Loading& loading = settings_.loading;
     Output output(settings_.output, facts_.state_names, communicator_);
     Result result;
@@ -448,10 +450,11 @@ Result Problem::Implementation::run() {
     }
     result.finished = time >= nearly_all;
     seconds_.total = MPI_Wtime() - start;
+    seconds_.processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
     result.ranks_asking = ranks_asking_;
     result.linear_solver = used_gmres_ ? "GMRES" : "CG";
-    for (auto part :
-         {&Result::Seconds::assembly, &Result::Seconds::umat, &Result::Seconds::solve, &Result::Seconds::total})
+    for (auto part : {&Result::Seconds::assembly, &Result::Seconds::umat, &Result::Seconds::solve,
+                      &Result::Seconds::total, &Result::Seconds::processor})
         result.seconds.*part = dealii::Utilities::MPI::max(seconds_.*part, communicator_);
     relevant_ = displacement_;
     output.write_fields(dofs_, relevant_, *points_, static_cast<int>(result.increments.size()), time * loading.time);

@@ -24,7 +24,9 @@ struct Result {
     int ranks = 1;
     std::string linear_solver;
     struct Seconds {
-        double assembly = 0, umat = 0, solve = 0, total = 0;  // of the slowest rank; assembly is without umat
+        // Of the slowest rank. Assembly is without umat; processor is what the process was given of a processor, less
+        // than the total where others run on the machine.
+        double assembly = 0, umat = 0, solve = 0, total = 0, processor = 0;
     } seconds;
 };
 
