@@ -66,4 +66,11 @@ void MaterialPoints::accept() {
     energy_old_ = energy_new_;
 }
 
+void MaterialPoints::restore() {
+    stress_new_ = stress_old_;
+    state_new_ = state_old_;
+    strain_new_ = strain_old_;
+    energy_new_ = energy_old_;
+}
+
 }  // namespace bar

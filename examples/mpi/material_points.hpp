@@ -29,6 +29,8 @@ class MaterialPoints {
                   double (&tangent)[36]);
     // What the last calls gave becomes the start of the next increment.
     void accept();
+    // Or is forgotten.
+    void restore();
 
     std::size_t size() const { return count_; }
     const double* stress(std::size_t point) const { return &stress_new_[6 * point]; }

@@ -404,6 +404,7 @@ Result Problem::Implementation::run() {
         const Increment increment{time * loading.time, size * loading.time, ++attempts};
         Trial trial = try_increment(increment);
         if (trial.outcome != Outcome::converged) {
+            points_->restore();
             const bool by_material = trial.outcome == Outcome::refused_by_material;
             ++(by_material ? result.refused_by_material : result.refused_by_newton);
             if (speaks_) {
@@ -460,7 +461,7 @@ Result Problem::Implementation::run() {
     output.write_fields(dofs_, relevant_, *points_, static_cast<int>(result.increments.size()), time * loading.time);
     if (facts_.watched >= 0) output.write_mid_plane(dofs_, *points_, facts_.watched);
     output.write_tables(result);
-    if (speaks_) std::printf("%s\n", result.finished ? "finished" : "given up: the increment is too small");
+    if (speaks_) std::printf("%s\n", result.finished ? "finished" : "given up");
     return result;
 }
 
