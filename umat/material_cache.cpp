@@ -1,5 +1,6 @@
 #include "material_cache.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <memory>
@@ -29,6 +30,7 @@ std::string known_keywords() {
 }  // namespace
 
 constinit std::array<std::atomic<Material*>, cache_detail::bucket_count> cache_detail::buckets{};
+constinit thread_local Material* cache_detail::last_found = nullptr;
 
 MaterialName parse_material_name(const char* cmname) {
     std::string_view text(cmname, strnlen(cmname, cmname_length));
@@ -43,10 +45,10 @@ MaterialName parse_material_name(const char* cmname) {
     return name;
 }
 
-Material::Material(const char* cmname, const double* props, int nprops) {
-    if (nprops < 0) nprops = 0;
+Material::Material(const char* cmname, const double* props, int nprops)
+    : nprops_(std::max(nprops, 0)), props_(new double[static_cast<std::size_t>(nprops_)]) {
     std::memcpy(cmname_.data(), cmname, strnlen(cmname, cmname_length));
-    props_.assign(props, props + nprops);
+    std::copy_n(props, nprops_, props_.get());
     const MaterialName parsed = parse_material_name(cmname);
     name = parsed.full;
     labelled_plane_stress = parsed.label == "PS" || parsed.label.starts_with("PS-");
@@ -56,7 +58,7 @@ Material::Material(const char* cmname, const double* props, int nprops) {
     if (entry == nullptr)
         throw BadProperty("no material model '" + parsed.keyword + "' (the part of the material name '" + name +
                           "' before the first '-'); the models are " + known_keywords());
-    const Properties properties(*entry->description, name, props_.data(), nprops);
+    const Properties properties(*entry->description, name, props_.get(), nprops_);
     void* storage = ::operator new (entry->size, std::align_val_t{entry->alignment});
     std::string message;
     if (!entry->construct(storage, properties, message, warnings)) {
@@ -65,8 +67,10 @@ Material::Material(const char* cmname, const double* props, int nprops) {
     }
     object = storage;
     for (int k = 0; k < kind_count; ++k)
-        if (entry->umat[k] != nullptr)
+        if (entry->umat[k] != nullptr) {
+            umat[static_cast<std::size_t>(k)] = entry->umat[k];
             required_state[static_cast<std::size_t>(k)] = entry->required_state(object, static_cast<AnalysisKind>(k));
+        }
 }
 
 Material::~Material() {

@@ -7,9 +7,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "host_profile.hpp"
 #include "lode/material/model_entry.hpp"
@@ -33,33 +33,33 @@ class Material {
     Material& operator=(const Material&) = delete;
 
     bool matches(const char* cmname, const double* props, int nprops) const {
-        return props_.size() == static_cast<std::size_t>(nprops) && same_bits(props_.data(), props, props_.size()) &&
+        return nprops_ == nprops && same_bits(props_.get(), props, nprops) &&
                std::strncmp(cmname_.data(), cmname, cmname_length) == 0;
     }
 
     const ModelEntry* entry = nullptr;
     const void* object = nullptr;
-    std::array<int, kind_count> required_state{};  // 0 for kinds that are not served
-    std::string name;                              // as messages show it
-    bool labelled_plane_stress = false;            // label PS or PS-*
-    std::string warnings;                          // from the constructor of the model
-    std::atomic<bool> has_warned{false};
-
+    std::array<ModelEntry::UmatFunction, kind_count> umat{};  // null for kinds that are not served
+    std::array<int, kind_count> required_state{};             // 0 for kinds that are not served
     const HostChoice host = host_choice();
-    Material* next = nullptr;  // in its bucket
+    Material* next = nullptr;            // in its bucket
+    std::string name;                    // as messages show it
+    bool labelled_plane_stress = false;  // label PS or PS-*
+    std::string warnings;                // from the constructor of the model
+    std::atomic<bool> has_warned{false};
 
   private:
     // For the usual few constants a call of memcmp costs more than the whole look-up.
-    static bool same_bits(const double* a, const double* b, std::size_t n) {
-        if (n > 8) return std::memcmp(a, b, n * sizeof *a) == 0;
-        std::uint64_t difference = 0;
-        for (std::size_t i = 0; i < n; ++i)
-            difference |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
-        return difference == 0;
+    static bool same_bits(const double* a, const double* b, int n) {
+        if (n > 8) return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof *a) == 0;
+        for (int i = 0; i < n; ++i)
+            if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
+        return true;
     }
 
+    int nprops_;
+    std::unique_ptr<double[]> props_;
     std::array<char, cmname_length + 1> cmname_{};
-    std::vector<double> props_;
 };
 
 namespace cache_detail {
@@ -67,15 +67,16 @@ namespace cache_detail {
 inline constexpr std::size_t bucket_count = 256;
 extern std::array<std::atomic<Material*>, bucket_count> buckets;
 
+// Of this thread; null or in the table. Eight bytes, for which the loader keeps room in every thread: no call is needed
+// to find them.
+[[gnu::tls_model("initial-exec")]] extern constinit thread_local Material* last_found;
+
+// One multiplication: every call waits for it.
 inline std::atomic<Material*>& bucket_of(const double* props, int nprops) {
-    const auto n = static_cast<std::size_t>(nprops);
-    std::uint64_t h = n;
-    if (n > 0) {
-        h ^= std::bit_cast<std::uint64_t>(props[0]);
-        h = h * 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(props[n / 2]);
-        h = h * 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(props[n - 1]);
-    }
-    return buckets[static_cast<std::size_t>((h * 0x9E3779B97F4A7C15u) >> 32) % bucket_count];
+    if (nprops <= 0) return buckets[0];
+    const auto bits = [props](int i) { return std::bit_cast<std::uint64_t>(props[i]); };
+    const std::uint64_t sum = bits(0) + std::rotl(bits(nprops / 2), 21) + std::rotl(bits(nprops - 1), 42);
+    return buckets[static_cast<std::size_t>((sum * 0x9E3779B97F4A7C15u) >> (64 - std::bit_width(bucket_count - 1)))];
 }
 
 }  // namespace cache_detail
@@ -83,8 +84,14 @@ inline std::atomic<Material*>& bucket_of(const double* props, int nprops) {
 // The material of this call if it was made before, else null. This is the way of all calls but one.
 inline Material* known_material(const char* cmname, const double* props, int nprops) {
     if (nprops < 0) nprops = 0;
-    Material* m = cache_detail::bucket_of(props, nprops).load(std::memory_order_acquire);
-    while (m != nullptr && !m->matches(cmname, props, nprops)) [[unlikely]] m = m->next;
+    // Hosts go through an element set before they turn to the next. What the last call found is at hand at once, while
+    // the table can be asked only after the constants have come and been hashed.
+    Material* m = cache_detail::last_found;
+    if (m != nullptr && m->matches(cmname, props, nprops)) [[likely]]
+        return m;
+    m = cache_detail::bucket_of(props, nprops).load(std::memory_order_acquire);
+    while (m != nullptr && !m->matches(cmname, props, nprops)) m = m->next;
+    if (m != nullptr) cache_detail::last_found = m;
     return m;
 }
 

@@ -27,7 +27,7 @@ void ask_for_smaller_increment(double& pnewdt, double ratio) {
         arguments.celent = &unknown_length;
     }
     CallStatus status;
-    call.material->entry->umat[call.kind](call.material->object, arguments, status);
+    call.material->umat[static_cast<std::size_t>(call.kind)](call.material->object, arguments, status);
     if (status.failure != nullptr) [[unlikely]] {
         if (status.refusal != nullptr)
             report_error_and_stop(HostProgram::standard, failure_text(*call.material, status));
