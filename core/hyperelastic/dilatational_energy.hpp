@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lode/material/description.hpp"
-#include "lode/numerics/scalar.hpp"
+#include "lode/numerics/functions.hpp"
 
 namespace lode {
 
@@ -20,23 +20,49 @@ struct VolumeRatio {
     Real inverse;  // 1/J
     Real ln;       // ln J, present only where the energy is written in it
 
-    VolumeRatio(const Real& volume_change, const Real& ratio) : j(volume_change), J(ratio), inverse(1.0 / ratio) {}
+    VolumeRatio(const Real& volume_change, const Real& ratio) : VolumeRatio(volume_change, ratio, 1.0 / ratio) {}
+    VolumeRatio(const Real& volume_change, const Real& ratio, const Real& inverse_ratio)
+        : j(volume_change), J(ratio), inverse(inverse_ratio) {}
 
     Real logarithm() const {
-        const Mask<Real> near_one = j > Real(-0.5);
-        return all(near_one) ? log1p(j) : select(near_one, log1p(j), log(J));
+        const Mask<Real> near = is_near_one();
+        const Series series(j);
+        const Real near_value = series.s * (2.0 + 2.0 * series.x * series.tail);
+        if (all(near)) [[likely]]
+            return near_value;
+        return select(near, near_value, far_logarithm());
     }
-    // j - ln J, of second order in j. Small j: ln J = 2 artanh(s) with s = j/(2 + j), so that nothing cancels and no
-    // logarithm is needed.
+    // j - ln J, of second order in j.
     Real excess_over_log() const {
-        const Mask<Real> small = abs(j) < Real(0.25);
-        if (!any(small)) return j - logarithm();
-        const Real s = j / (2.0 + j), x = s * s, x2 = x * x;
-        const Real tail = (1.0 / 3 + x * (1.0 / 5)) + x2 * (1.0 / 7 + x * (1.0 / 9)) +
-                          x2 * x2 * ((1.0 / 11 + x * (1.0 / 13)) + x2 * (1.0 / 15 + x * (1.0 / 17 + x * (1.0 / 19))));
-        const Real series = s * (j - 2.0 * x * tail);
-        return all(small) ? series : select(small, series, j - logarithm());
+        const Mask<Real> near = is_near_one();
+        const Series series(j);
+        const Real excess = series.s * (j - 2.0 * series.x * series.tail);
+        if (all(near)) [[likely]]
+            return excess;
+        return select(near, excess, j - far_logarithm());
     }
+
+  private:
+    // ln J = 2 artanh(s) = 2 s (1 + x tail) with s = j/(2 + j) and x = s^2: nothing cancels, no logarithm is needed,
+    // and the rest of the series is below the rounding errors for 1/2 <= J <= 2, |s| <= 1/3.
+    Real far_logarithm() const {
+        if constexpr (std::is_same_v<Real, double>)
+            return J > 0.0 && is_finite(J) ? quick_log(J) : std::numeric_limits<double>::quiet_NaN();
+        else return log(J);
+    }
+    Mask<Real> is_near_one() const { return abs(j - 0.25) <= Real(0.75); }
+    struct Series {
+        Real s, x, tail;
+
+        explicit Series(const Real& j) : s(j / (2.0 + j)), x(s * s) {
+            const Real x2 = x * x, x4 = x2 * x2;
+            const Real t0 = (1.0 / 3 + x * (1.0 / 5)) + x2 * (1.0 / 7 + x * (1.0 / 9));
+            const Real t4 = (1.0 / 11 + x * (1.0 / 13)) + x2 * (1.0 / 15 + x * (1.0 / 17));
+            const Real t8 = (1.0 / 19 + x * (1.0 / 21)) + x2 * (1.0 / 23 + x * (1.0 / 25));
+            const Real t12 = (1.0 / 27 + x * (1.0 / 29)) + x2 * (1.0 / 31);
+            tail = (t0 + x4 * t4) + (x4 * x4) * (t8 + x4 * t12);
+        }
+    };
 };
 
 struct DilatationalEnergy {
@@ -45,7 +71,11 @@ struct DilatationalEnergy {
 
     template <class Real>
     VolumeRatio<Real> volume_ratio(const Real& j, const Real& J) const {
-        VolumeRatio<Real> v(j, J);
+        return volume_ratio(j, J, Real(1.0 / J));
+    }
+    template <class Real>
+    VolumeRatio<Real> volume_ratio(const Real& j, const Real& J, const Real& inverse) const {
+        VolumeRatio<Real> v(j, J, inverse);
         if (option == 2) v.ln = v.logarithm();
         return v;
     }

@@ -92,60 +92,13 @@ struct MooneyRivlin {
         moduli.template set_stiffness<kind>(tangent);
     }
 
+    template <bool has_second>
+    struct Kernel;
+    template <class F>
+    LODE_INLINE void specialise(const F& f) const;
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
-        constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
-        State<Real>& state = point.state;
-        const Real e = residual.end(increment, state[1]);
-        Real f33m1 = state[2];
-        auto k = residual.mechanical(increment, e);
-
-        if constexpr (is_plane_stress) {
-            const Mask<Real> possible = k.jacobian > Real(0.0) && is_finite(trace(k.b));
-            if (all(possible)) {
-                const ThicknessEquation<Real> equation(shear1, shear2, dilatation, k);
-                const auto root = solve_thickness(equation, thickness_of_state(f33m1, e), equation.scale());
-                if (!all(root.converged))
-                    return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
-                set_thickness(k, 1.0 + root.d, root.d);
-            }
-        }
-
-        // J sigma = G1 c^-2 dev b + G2 c^-4 [(1 + tr b) dev b - dev b^2] + J U' I,   c = cbrt J
-        const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
-        const Real inverse2 = square(reciprocal_cbrt(v.J)), c = v.J * inverse2;  // J^(-2/3)
-        const Real mean = dilatation.derivative(v);
-        const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
-        auto stress = g1 * k.b, second = k.b;  // I1 B - B^2 = (2 + tr b) I + second
-        if (shear2 != 0.0) {
-            assign(second, (1.0 + trace(k.b)) * k.b - square_of(k.b));
-            stress += g2 * second;
-        }
-        stress = deviator(stress);
-        add_to_normals(stress, 3, mean);
-
-        const Real energy = v.inverse * (shape_energy(shear1, shear2, k, c, inverse2) + dilatation.energy(v));
-        const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress) + energy);
-        if (!all(sound)) [[unlikely]]
-            return point.fail(!sound, "det F <= 0, or the deformation is not finite");
-        point.stress = without_thickness<kind>(stress);
-        point.elastic_energy = energy;
-
-        if constexpr (wants_tangent<T>) {
-            set_tangent_of_kind<kind>(
-                tangent, point.stress, residual.thermal_expansion != 0.0,
-                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent(k, v, inverse2, second, full); },
-                [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
-        }
-
-        if constexpr (is_plane_stress) {
-            const Real f33m1_old = f33m1;
-            f33m1 = residual.total_thickness_change(k.h(2, 2), e);
-            if (point.wants_thickness_strain)
-                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
-        }
-        state.set(1, e);
-        state.set(2, f33m1);
+        specialise([&](const auto& k) LODE_INLINE_LAMBDA { k.update(increment, point, tangent); });
     }
 
     // G1/2 (I1bar - 3) + G2/2 (I2bar - 3) in terms of second order: with c^3 = J and x = I1 - 3 - 2 (J - 1)
@@ -209,31 +162,107 @@ struct MooneyRivlin {
     ResidualStrain residual;
 
   private:
+    // One kernel with the second constant, one without.
+    template <bool has_second, AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update_of(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
+        State<Real>& state = point.state;
+        const Real e = residual.end(increment, state[1]);
+        auto k = residual.mechanical(increment, e);
+
+        if constexpr (is_plane_stress) {
+            const Mask<Real> possible = k.jacobian > Real(0.0) && is_finite(trace(k.b));
+            if (all(possible)) {
+                const ThicknessEquation<Real> equation(shear1, shear2, dilatation, k);
+                const auto root = solve_thickness(equation, thickness_of_state(state[2], e), equation.scale());
+                if (!all(root.converged))
+                    return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
+                set_thickness(k, 1.0 + root.d, root.d);
+            }
+        }
+
+        // J sigma = G1 c^-2 dev b + G2 c^-4 [(1 + tr b) dev b - dev b^2] + J U' I,   c = cbrt J
+        const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
+        const Real inverse2 = square(reciprocal_cbrt(v.J)), c = v.J * inverse2;  // J^(-2/3)
+        const Real mean = dilatation.derivative(v);
+        const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
+        Stress<with_thickness(kind), Real> stress, second;  // I1 B - B^2 = (2 + tr b) I + second
+        assign(stress, g1 * k.b);
+        if constexpr (has_second) {
+            assign(second, (1.0 + trace(k.b)) * k.b - square_of(k.b));
+            stress += g2 * second;
+        }
+        add_to_normals(stress, 3, mean - trace(stress) * (1.0 / 3.0));
+
+        const Real energy = v.inverse * (shape_energy(shear1, shear2, k, c, inverse2) + dilatation.energy(v));
+        const Mask<Real> sound = v.J > Real(0.0) && is_finite(trace(stress) + energy);
+        if (!all(sound)) [[unlikely]]
+            return point.fail(!sound, "det F <= 0, or the deformation is not finite");
+        assign(point.stress, without_thickness<kind>(stress));
+        point.elastic_energy = energy;
+
+        if constexpr (wants_tangent<T>) {
+            set_tangent_of_kind<kind>(
+                tangent, point.stress, residual.thermal_expansion != 0.0,
+                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent<has_second>(k, v, inverse2, second, full); },
+                [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
+        }
+
+        if constexpr (is_plane_stress) {
+            const Real f33m1_old = state[2], f33m1 = residual.total_thickness_change(k.h(2, 2), e);
+            if (point.wants_thickness_strain)
+                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
+            state.set(2, f33m1);
+        } else {
+            state.keep(2);
+        }
+        state.set(1, e);
+    }
+
     // Section 2.3, with m = I1bar Bbar - Bbar^2:
     //     J C = M(G1 Bbar + G2 m) - (2/3) [(G1 Bbar + 2 G2 m) (x) 1 + 1 (x) (...)]
     //         + [2/9 (G1 I1bar + 4 G2 I2bar) + J (J U')'] 1 (x) 1 + 2 G2 [Bbar (x) Bbar - (D -> Bbar D Bbar)]
-    template <AnalysisKind kind, AnalysisKind full>
+    template <bool has_second, AnalysisKind kind, AnalysisKind full>
     LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v, double inverse2,
                                  const Stress<full, double>& second, Tangent<full>& c) const {
-        auto b = k.b;
-        add_to_normals(b, 3, 1.0);
-        b = inverse2 * b;
+        Stress<full, double> b, stretching, coupling;  // Bbar
+        for (int i = 0; i < 3; ++i) b[i] = inverse2 * (1.0 + k.b[i]);
+        for (int i = 3; i < components(full); ++i) b[i] = inverse2 * k.b[i];
         const double i1 = trace(b), g1 = shear1 * v.inverse, g2 = shear2 * v.inverse;
-        const auto stretching = g1 * b, coupling = (-2.0 / 3.0 * g1) * b;
+        assign(stretching, g1 * b);
+        assign(coupling, (-2.0 / 3.0 * g1) * b);
         const double volumetric = 2.0 / 9.0 * g1 * i1 + dilatation.stiffness(v);
-        if (shear2 != 0.0) {
-            auto m = second;
-            add_to_normals(m, 3, 2.0 + trace(k.b));
-            m = square(inverse2) * m;
+        if constexpr (has_second) {
+            const double inverse4 = square(inverse2), normal = 2.0 + trace(k.b);
+            Stress<full, double> m, cofactors;
+            for (int i = 0; i < 3; ++i) m[i] = inverse4 * (normal + second[i]);
+            for (int i = 3; i < components(full); ++i) m[i] = inverse4 * second[i];
             const double twice_i2 = trace(m);
-            auto cofactors = (-2.0 * g2) * m;  // cof Bbar = I2bar I - m (Cayley and Hamilton)
+            assign(cofactors, (-2.0 * g2) * m);  // cof Bbar = I2bar I - m (Cayley and Hamilton)
             add_to_normals(cofactors, 3, g2 * twice_i2);
-            set_coupled_tangent(c, stretching + g2 * m, volumetric + 4.0 / 9.0 * g2 * twice_i2,
-                                coupling - (4.0 / 3.0 * g2) * m, cofactors);
-            return;
+            stretching += g2 * m;
+            coupling += (-4.0 / 3.0 * g2) * m;
+            set_coupled_tangent(c, stretching, volumetric + 4.0 / 9.0 * g2 * twice_i2, coupling, cofactors);
+        } else {
+            set_coupled_tangent(c, stretching, volumetric, coupling, 0.0);
         }
-        set_coupled_tangent(c, stretching, volumetric, coupling, 0.0);
     }
 };
+
+template <bool has_second>
+struct MooneyRivlin::Kernel {
+    MooneyRivlin model;
+
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
+        model.update_of<has_second>(increment, point, tangent);
+    }
+};
+
+template <class F>
+LODE_INLINE void MooneyRivlin::specialise(const F& f) const {
+    if (shear2 != 0.0) f(Kernel<true>{*this});
+    else f(Kernel<false>{*this});
+}
 
 }  // namespace lode

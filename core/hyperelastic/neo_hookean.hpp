@@ -89,7 +89,6 @@ struct NeoHookean {
         constexpr int normals = normal_components(kind);
         State<Real>& state = point.state;
         const Real e = residual.end(increment, state[1]);
-        Real f33m1 = state[2];
         auto k = residual.mechanical(increment, e);
 
         if constexpr (is_plane_stress) {
@@ -118,13 +117,14 @@ struct NeoHookean {
         if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);
 
         if constexpr (is_plane_stress) {
-            const Real f33m1_old = f33m1;
-            f33m1 = residual.total_thickness_change(k.h(2, 2), e);
+            const Real f33m1_old = state[2], f33m1 = residual.total_thickness_change(k.h(2, 2), e);
             if (point.wants_thickness_strain)
                 point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
+            state.set(2, f33m1);
+        } else {
+            state.keep(2);
         }
         state.set(1, e);
-        state.set(2, f33m1);
     }
 
     IsotropicModuli moduli;

@@ -20,17 +20,18 @@ struct ResidualStrain {
         return e;
     }
 
-    // True where there is none and there will be none: nothing needs to be computed for it.
+    // True where there is none: nothing needs to be computed for it. (A derivative can be there nevertheless.)
     template <class Real>
     bool is_absent(const Real& e) const {
-        return thermal_expansion == 0.0 && moisture_expansion == 0.0 && !any(e != Real(0.0));
+        if constexpr (is_differentiated<Real>)
+            if (thermal_expansion != 0.0 || moisture_expansion != 0.0) return false;
+        return !any(e != Real(0.0));
     }
 
     // Kinematics of F*.
     template <AnalysisKind kind, class Real>
-    Kinematics<kind, Real> mechanical(const Increment<kind, Real>& increment, const Real& e) const {
-        const Matrix3<Real> f = increment.deformation_gradient();
-        return is_absent(e) ? kinematics<kind>(f) : kinematics<kind>(f, e);
+    LODE_INLINE Kinematics<kind, Real> mechanical(const Increment<kind, Real>& increment, const Real& e) const {
+        return kinematics<kind>(increment.deformation_gradient(), e, is_absent(e));
     }
 
     // F33 - 1 from d = F33* - 1, plane stress.

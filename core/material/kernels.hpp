@@ -70,12 +70,15 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallSt
     Point<kind, double> point;
     for (int i = 0; i < n; ++i) increment.strain_increment[i] = a.dstran[i];
     for (int i = 0; i < n; ++i) point.stress[i] = a.stress[i];
-    const double work = double_contraction(point.stress, increment.strain_increment);
-    if (!are_finite(point.stress, increment.strain_increment, work) || !is_finite(*a.dtime + *a.temp + *a.dtemp))
-        [[unlikely]] {
-        status.failure = "DSTRAN, STRESS, DTIME, TEMP or DTEMP on entry is not finite";
-        status.time_step_ratio = 0.25;
-        return;
+    const double times = *a.dtime + *a.temp + *a.dtemp;
+    double sum[2] = {times, point.stress[0] * increment.strain_increment[0]};
+    for (int i = 1; i < n; ++i) sum[(i + 1) % 2] += point.stress[i] * increment.strain_increment[i];
+    if (!is_finite(sum[0] + sum[1])) [[unlikely]] {  // something is not finite, unless that overflowed
+        if (!is_finite(times) || !finiteness(point.stress) || !finiteness(increment.strain_increment)) {
+            status.failure = "DSTRAN, STRESS, DTIME, TEMP or DTEMP on entry is not finite";
+            status.time_step_ratio = 0.25;
+            return;
+        }
     }
     increment.time_increment = *a.dtime;
     increment.time_end = a.time[1] + *a.dtime;

@@ -2,6 +2,7 @@
 // full relative accuracy at any strain (page 50, section 1.3).
 #pragma once
 
+#include "lode/numerics/functions.hpp"
 #include "lode/tensor/matrix3.hpp"
 
 namespace lode {
@@ -22,13 +23,17 @@ inline Matrix3<Real> displacement_gradient(const Matrix3<Real>& f) {
     return h;
 }
 
-// H = F* - I of the mechanical part F* = F exp(-e) of F = I + Hx, e the linear residual strain.
+// H = F* - I of the mechanical part F* = F exp(-e) of F = I + Hx, e the linear residual strain; free = expm1(-e).
 template <class Real>
-inline Matrix3<Real> mechanical_gradient(const Matrix3<Real>& hx, const Real& residual_strain) {
-    const Real shrink = exp(-residual_strain), free = expm1(-residual_strain);
+inline Matrix3<Real> gradient_without(const Real& free, const Matrix3<Real>& hx) {
+    const Real shrink = 1.0 + free;
     Matrix3<Real> h = shrink * hx;
     for (int i = 0; i < 3; ++i) h(i, i) = h(i, i) + free;
     return h;
+}
+template <class Real>
+inline Matrix3<Real> mechanical_gradient(const Matrix3<Real>& hx, const Real& residual_strain) {
+    return gradient_without(quick_expm1(-residual_strain), hx);
 }
 
 // In-plane det(I + H) - 1.
@@ -101,7 +106,7 @@ struct Kinematics {
 namespace kinematics_detail {
 
 template <AnalysisKind kind, class Real>
-inline Kinematics<kind, Real> complete(const Matrix3<Real>& h, const Real& determinant_of_f) {
+LODE_INLINE Kinematics<kind, Real> complete(const Matrix3<Real>& h, const Real& determinant_of_f) {
     Kinematics<kind, Real> k;
     k.h = h;
     const auto b = left_cauchy_green_minus_identity<kind>(h);
@@ -115,16 +120,23 @@ inline Kinematics<kind, Real> complete(const Matrix3<Real>& h, const Real& deter
 
 // From F = DFGRD1 (UMAT) or U (VUMAT).
 template <AnalysisKind kind, class Real>
-inline Kinematics<kind, Real> kinematics(const Matrix3<Real>& f) {
+LODE_INLINE Kinematics<kind, Real> kinematics(const Matrix3<Real>& f) {
     return kinematics_detail::complete<kind>(displacement_gradient<kind>(f), jacobian<kind>(f));
 }
-// The same of F exp(-e), e the linear residual strain.
+// The same of F exp(-e), e the linear residual strain; nothing is computed for it where `is_absent`.
 template <AnalysisKind kind, class Real>
-inline Kinematics<kind, Real> kinematics(const Matrix3<Real>& f, const Real& residual_strain) {
-    constexpr double dimensions = kind == AnalysisKind::plane_stress ? 2.0 : 3.0;
-    Matrix3<Real> h = mechanical_gradient(displacement_gradient<kind>(f), residual_strain);
-    if constexpr (kind == AnalysisKind::plane_stress) h(2, 2) = Real(0.0);
-    return kinematics_detail::complete<kind>(h, jacobian<kind>(f) * exp(-dimensions * residual_strain));
+LODE_INLINE Kinematics<kind, Real> kinematics(const Matrix3<Real>& f, const Real& residual_strain,
+                                              bool is_absent = false) {
+    Matrix3<Real> h = displacement_gradient<kind>(f);
+    Real determinant_of_f = jacobian<kind>(f);
+    if (!is_absent) {
+        const Real free = quick_expm1(-residual_strain), shrink = 1.0 + free;
+        h = gradient_without(free, h);
+        determinant_of_f = determinant_of_f * (shrink * shrink);
+        if constexpr (kind == AnalysisKind::plane_stress) h(2, 2) = Real(0.0);
+        else determinant_of_f = determinant_of_f * shrink;
+    }
+    return kinematics_detail::complete<kind>(h, determinant_of_f);
 }
 
 }  // namespace lode

@@ -20,8 +20,8 @@ class PressureLaw {
     // Js from J and Jres less one.
     template <class Real>
     LODE_INLINE VolumeRatio<Real> ratio(const Real& j, const Real& res) const {
-        const Real inverse = 1.0 / (1.0 + res);
-        return energy_.volume_ratio((j - res) * inverse, (1.0 + j) * inverse);
+        const Real J = 1.0 + j, Jres = 1.0 + res, both = 1.0 / (J * Jres), inverse = J * both;
+        return energy_.volume_ratio((j - res) * inverse, J * inverse, (Jres * Jres) * both);
     }
     // -P and its derivative by ln J.
     template <class Real>
@@ -48,7 +48,7 @@ class PressureLaw {
 // J - 1 after a logarithmic volume strain `growth`.
 template <class Real>
 LODE_INLINE Real grown(const Real& j, const Real& growth) {
-    return j + (1.0 + j) * expm1(growth);
+    return j + (1.0 + j) * quick_expm1(growth);
 }
 
 // The lateral stress of plane stress (33) or 1D (22 = 33), over b, as a function of the lateral strain increment.
