@@ -89,7 +89,9 @@ struct DecoupledInterface {
     }
     template <class Real>
     static Real power(const Real& x, double exponent) {
-        if (exponent == 0.0 || exponent == 1.0) return exponent == 0.0 ? Real(1.0) : x;
+        if (exponent == 0.0) return Real(1.0);
+        if (exponent == 1.0) return x;
+        if (exponent == 2.0) return x * x;
         const Mask<Real> positive = x > Real(0.0);
         if (!any(positive)) return Real(0.0);
         return select(positive, pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));

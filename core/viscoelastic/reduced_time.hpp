@@ -6,6 +6,7 @@
 #include "lode/material/description.hpp"
 #include "lode/material/point.hpp"
 #include "lode/material/properties.hpp"
+#include "lode/numerics/functions.hpp"
 
 namespace lode {
 
@@ -90,12 +91,13 @@ class ReducedTime {
                 if (any(bad)) return refuse(point, bad, "1/a_mu = 1 + C5 (c - CREF)", rate);
             }
         }
-        dtr = dt * mean([&](double part) {
+        const bool sorbs = any(c1 != c0), is_constant = !sorbs && !any(T1 != T0);
+        dtr = dt * mean(is_constant, [&](double part) {
                   const X T = T0 + part * (T1 - T0), c = c0 + part * (c1 - c0);
                   return temperature_exponent(T) + concentration_exponent(c);
               });
-        if (mechanosorption_ > 0.0) {
-            const X sorbed = mean([&](double part) {
+        if (mechanosorption_ > 0.0 && sorbs) {
+            const X sorbed = mean(false, [&](double part) {
                 const X T = T0 + part * (T1 - T0), c = c0 + part * (c1 - c0);
                 return temperature_exponent(T) + log(mobility(c));
             });
@@ -135,27 +137,28 @@ class ReducedTime {
 
     // (1/dt) int exp(f) dt by the chosen rule; `exponent(s)` is f at the fraction s of the increment.
     template <class F>
-    LODE_INLINE auto mean(const F& exponent) const {
+    LODE_INLINE auto mean(bool is_constant, const F& exponent) const {
         using X = decltype(exponent(0.0));
         const auto f = [&](double part) { return max(min(exponent(part), X(300.0)), X(-300.0)); };
+        if (is_constant) return X(quick_exp(f(0.0)));
         switch (rule_) {
             case 1: {
-                const X sum = exp(f(0.0)) + exp(f(1.0));
+                const X sum = quick_exp(f(0.0)) + quick_exp(f(1.0));
                 return X(0.5 * sum);
             }
             case 2:
-                return X(exp(f(0.5)));
+                return X(quick_exp(f(0.5)));
             case 3: {
                 constexpr double node = 0.11270166537925831148;  // (1 - sqrt(3/5))/2
-                const X outer = exp(f(node)) + exp(f(1.0 - node));
-                return X((5.0 / 18.0) * outer + (8.0 / 18.0) * exp(f(0.5)));
+                const X outer = quick_exp(f(node)) + quick_exp(f(1.0 - node));
+                return X((5.0 / 18.0) * outer + (8.0 / 18.0) * quick_exp(f(0.5)));
             }
             default: {
                 // exp(f0) expm1(L)/L
                 const X f0 = f(0.0), L = f(1.0) - f0;
                 const Mask<X> tiny = abs(L) < X(1e-8);
                 const X divisor = select(tiny, X(1.0), L);
-                return X(exp(f0) * select(tiny, 1.0 + 0.5 * L, expm1(L) / divisor));
+                return X(quick_exp(f0) * select(tiny, 1.0 + 0.5 * L, quick_expm1(L) / divisor));
             }
         }
     }

@@ -182,7 +182,7 @@ class Update {
         Volume<Real> volume{Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
         if (!is_linear) {
             volume.j0 = old[JM1], volume.res0 = old[JRESM1];
-            volume.res1 = grown(volume.res0, 3.0 * free_strain);
+            volume.res1 = c.expands() ? grown(volume.res0, 3.0 * free_strain) : volume.res0;
         }
         if constexpr (has_lateral) {
             Mask<Real> solved(true);
