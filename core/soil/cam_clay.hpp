@@ -64,7 +64,9 @@ struct CamClay {
             if (biot != 0.0) pore_pressure = increment.field_start(1);
             if (!initial_state.find_lanes(fresh, pore_pressure, point, start.v, start.e, start.pc)) return;
         }
-        start.log_pc = log(start.pc * (1.0 / elasticity.p_ref));
+        const Real pc_relative = start.pc * (1.0 / elasticity.p_ref);
+        const Mask<Real> sane = pc_relative > Real(1e-300) && pc_relative < Real(1e300);
+        start.log_pc = select(sane, quick_log(pc_relative), Real(std::numeric_limits<double>::quiet_NaN()));
 
         Strain<kind, Real> strain = increment.strain_increment;
         if (thermal_expansion != 0.0)
@@ -75,7 +77,7 @@ struct CamClay {
         if (!guard(increment, start, dv, de, clipped, point)) return;
 
         if (substeps.is_single_step()) {
-            CamClayPath<kind, Real> path = start;
+            CamClayPath<kind, Real>& path = start;
             substeps.advance(path, dv, de);
             if (!accept(increment, path, clipped, point)) return;
             if constexpr (wants_tangent<T>) {
@@ -135,7 +137,7 @@ struct CamClay {
             point.fail(bad, "CAM_CLAY: the stress is not finite");
             return false;
         }
-        point.stress = (2.0 * last.mu) * end.e;
+        assign(point.stress, (2.0 * last.mu) * end.e);
         add_to_normals(point.stress, 3, Real(-last.p - pore_stress));
         point.elastic_energy = elasticity.energy(last.A, last.s);
         point.plastic_dissipation = end.dissipation;

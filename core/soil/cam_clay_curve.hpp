@@ -141,13 +141,13 @@ struct CamClayCurve {
             Real sum = B + E;
             const Mask<Real> cancels = B < Real(0.0);
             if (any(cancels)) sum = select(cancels, four_rjj / select(cancels, E - B, Real(1.0)), sum);
-            const Real inverse = 1.0 / (r * (E * sum));
-            const Real rg = 2.0 * r * r * E * inverse, z = j * rg;
+            const Real inverse_sum = 1.0 / sum, inverse_rE = 1.0 / (r * E);
+            const Real rg = 2.0 * r * inverse_sum, z = j * rg;
             at.s = a * sqrt(rg);
             at.h = A * (1.0 + 2.0 * z - r);
             // d ln z/d delta = d ln(s^2)/d delta
             const Real mu0_share = (4.0 * elasticity.mu0 * inverse_kappa) * inverse_mu;
-            const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) * (0.5 * sum * inverse);
+            const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) * (0.5 * inverse_rE);
             at.s_slope = at.s * rate * zeta;
             h_rate = A * (2.0 * z * rate - (2.0 * inverse_kappa) * (1.0 + z) - inverse_theta * pc_ratio);
         }
@@ -162,17 +162,8 @@ struct CamClayCurve {
     CurvePoint<Real> curve_point(const Real& zeta, const Real& v_max, const Real& over, const Real& s_trial) const {
         const Real delta = zeta * zeta;
         return curve_point<Real>(elasticity.volumetric_pressure(Real(v_max - delta)),
-                                 min(exponential_minus_one(Real(w * delta)), Real(largest_r)), zeta, over + delta,
-                                 s_trial);
+                                 min(quick_expm1(Real(w * delta)), Real(largest_r)), zeta, over + delta, s_trial);
     }
-    // expm1. Away from the tip the difference has the same digits; for a single point it is the quicker one.
-    template <class Real>
-    static Real exponential_minus_one(const Real& x) {
-        if constexpr (!is_batch<Real>)
-            if (x > Real(0.1)) return exp(x) - 1.0;
-        return expm1(x);
-    }
-
     template <class Real>
     [[gnu::noinline]] Real bracketed_lanes(const Real& v_max, const Real& over, const Real& s_trial, const Real& zeta,
                                            const Mask<Real>& wrong) const {

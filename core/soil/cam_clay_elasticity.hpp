@@ -4,7 +4,7 @@
 //   p = dW/dv = A (1 + c s^2),   q = dW/ds = 3 mu s,   c = 3 alpha/(2 kappa).
 #pragma once
 
-#include "lode/numerics/scalar.hpp"
+#include "lode/numerics/functions.hpp"
 
 namespace lode {
 
@@ -23,7 +23,7 @@ struct CamClayElasticity {
     // A, the pressure without its shear-coupled part.
     template <class Real>
     Real volumetric_pressure(const Real& v) const {
-        return p_ref * exp(v * inverse_kappa);
+        return p_ref * quick_exp(Real(v * inverse_kappa));
     }
     template <class Real>
     Real shear_modulus(const Real& A) const {

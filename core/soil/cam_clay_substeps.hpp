@@ -47,7 +47,7 @@ struct CamClaySubsteps {
     LODE_INLINE void advance(CamClayPath<kind, Real>& path, const Real& dv, const Stress<kind, Real>& de) const {
         Real s_start(0.0);
         if (plasticity.method == cam_clay::NEWTON_FROM_START) s_start = shear_invariant(path.e);
-        path.e = path.e + de;
+        path.e += de;
         const CamClayStep<Real> step =
             plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc, path.v, s_start);
         path.last = step;
@@ -56,7 +56,7 @@ struct CamClaySubsteps {
         path.pc = step.pc;
         path.log_pc = step.log_pc;
         if (!any(step.plastic)) return;
-        path.e = step.shear_ratio * path.e;
+        assign(path.e, step.shear_ratio * path.e);
         path.compaction = path.compaction + step.plastic_compaction;
         path.plastic_shear = path.plastic_shear + (2.0 * plasticity.inverse_M_square) * (step.dgamma * step.q);
         path.dissipation = path.dissipation + step.dgamma * step.p * step.pc;
