@@ -52,7 +52,7 @@ struct DecoupledInterface {
             fails = fails || ((opens || slides) && released_fraction(result.GI, result.GII) >= one);
         fails = fails && !failed_before;
         if (any(fails)) [[unlikely]] {
-            locate_failure(path, dn_old, dt_old, fails, result);
+            result = at_failure<kind, Real>(*this, path, dn_old, dt_old, fails, result);
             result.failed = failed_before || fails;
         }
 
@@ -88,10 +88,16 @@ struct DecoupledInterface {
         return law.released_energy(min(delta, Real(law.end)));
     }
     template <class Real>
-    static Real power(const Real& x, double exponent) {
-        if (exponent == 0.0) return Real(1.0);
-        if (exponent == 1.0) return x;
+    LODE_INLINE static Real power(const Real& x, double exponent) {
+        if (exponent == 1.0) [[likely]]
+            return x;
         if (exponent == 2.0) return x * x;
+        return general_power<Real>(x, exponent);
+    }
+    // By value and out of the way, so that the point stays in registers.
+    template <class Real>
+    [[gnu::noinline]] static Real general_power(const Real x, double exponent) {
+        if (exponent == 0.0) return Real(1.0);
         const Mask<Real> positive = x > Real(0.0);
         if (!any(positive)) return Real(0.0);
         return select(positive, pow(max(x, Real(1e-300)), Real(exponent)), Real(0.0));
@@ -99,15 +105,25 @@ struct DecoupledInterface {
 
     // (GI/GIc)^p + (GII/GIIc)^q
     template <class Real>
-    Real released_fraction(const Real& GI, const Real& GII) const {
+    LODE_INLINE Real released_fraction(const Real& GI, const Real& GII) const {
         return power(GI * normal.inverse_toughness, exponent_I) + power(GII * shear.inverse_toughness, exponent_II);
     }
 
-    // The first s of the path at which one of the conditions of failure holds; they grow with s, since u_n and u_t are
-    // convex in s. The state is frozen there, so that the criterion is met exactly whatever the size of the increment.
+    // The state at the first s of the path at which one of the conditions of failure holds; they grow with s, since u_n
+    // and u_t are convex in s. It is frozen there, so that the criterion is met exactly whatever the size of the
+    // increment. All arguments by value: nothing of the caller has to live in memory.
     template <AnalysisKind kind, class Real>
-    void locate_failure(const SeparationPath<kind, Real>& path, const Real& dn_old, const Real& dt_old,
-                        const Mask<Real>& fails, InterfaceResult<kind, Real>& result) const {
+    [[gnu::noinline]] static InterfaceResult<kind, Real> at_failure(const DecoupledInterface laws,
+                                                                    const SeparationPath<kind, Real> path,
+                                                                    const Real dn_old, const Real dt_old,
+                                                                    const Mask<Real> fails,
+                                                                    InterfaceResult<kind, Real> result) {
+        laws.locate_failure(path, dn_old, dt_old, fails, result);
+        return result;
+    }
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE void locate_failure(const SeparationPath<kind, Real>& path, const Real& dn_old, const Real& dt_old,
+                                    const Mask<Real>& fails, InterfaceResult<kind, Real>& result) const {
         using Path = SeparationPath<kind, Real>;
         const Real zero(0.0);
         const auto residual = [&](const Real& s) {
