@@ -144,14 +144,15 @@ struct GeneralCubic : StrengthConstants {
                                   -part * inverse_range_ + (1.0 - x) * ratio_slope * 0.5 / part};
         };
         const Real start = elastic_limit * end / (elastic_limit + q * range_);
-        return solve_bracketed<Slope::decreasing>(residual, Real(elastic_limit), Real(end), start, 2e-16 * root).x;
+        // The residual has three roundings of the size of the root.
+        return solve_bracketed<Slope::decreasing>(residual, Real(elastic_limit), Real(end), start, 6e-16 * root).x;
     }
     template <class Real>
     Real psi(const Real& delta) const {
         const Real x = (delta - elastic_limit) * inverse_range_;
         Real sum(psi_[5]);
         for (int i = 4; i >= 0; --i) sum = psi_[i] + x * sum;
-        return x * sum + psi_remainder_ * log1p((delta - elastic_limit) / elastic_limit);
+        return x * sum + psi_remainder_ * quick_log1p(Real((delta - elastic_limit) / elastic_limit));
     }
     template <class Real>
     Real opening_at(const Real& psi_value) const {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "lode/material/properties.hpp"
+#include "lode/numerics/functions.hpp"
 #include "lode/numerics/root.hpp"
 
 namespace lode {
@@ -74,7 +75,7 @@ Real opening_at_psi(const Law& law, const Real& psi, const Real& start) {
 template <class Law, class Real>
 Real start_at_psi(const Law& law, const Real& psi) {
     const double first = 2.0 * law.stiffness * law.elastic_limit * law.release_rate(law.elastic_limit);
-    return min(law.elastic_limit * exp(min(psi * (1.0 / first), Real(100.0))), Real(law.end));
+    return min(law.elastic_limit * quick_exp(min(psi * (1.0 / first), Real(100.0))), Real(law.end));
 }
 
 // Code 1, linear softening: S = sig (u_c - delta)/w with w = u_c - u_e.
@@ -115,7 +116,8 @@ struct Sawtooth : StrengthConstants {
     double inverse_fall() const { return range_ / (elastic_limit * end); }
     template <class Real>
     Real psi(const Real& delta) const {
-        return psi_scale_ * (end * log1p((delta - elastic_limit) / elastic_limit) - (delta - elastic_limit));
+        return psi_scale_ *
+               (end * quick_log1p(Real((delta - elastic_limit) / elastic_limit)) - (delta - elastic_limit));
     }
     template <class Real>
     Real opening_at(const Real& psi_value) const {
@@ -214,7 +216,7 @@ struct Bilinear : StrengthConstants {
     }
     template <class Real>
     static Real branch_psi(const Branch& b, double from, const Real& delta) {
-        return b.strength * (b.strength * log1p((delta - from) / from) - b.softening * (delta - from));
+        return b.strength * (b.strength * quick_log1p(Real((delta - from) / from)) - b.softening * (delta - from));
     }
 
     Branch first_, second_;

@@ -98,6 +98,16 @@ LODE_INLINE Real quick_log(const Real& x) {
     if constexpr (std::is_same_v<Real, double>) return functions_detail::logarithm(x);
     else return log(x);
 }
+// ln(1 + x), accurate relative to itself, for a normal number 1 + x > 0: what rounding takes from 1 + x is given back.
+template <class Real>
+LODE_INLINE Real quick_log1p(const Real& x) {
+    if constexpr (std::is_same_v<Real, double>) {
+        const double u = 1.0 + x, lost = x - (u - 1.0);
+        return functions_detail::logarithm(u) + lost / u;
+    } else {
+        return log1p(x);
+    }
+}
 // x^n of x >= 0; 0 where x < 1e-300.
 template <class Real>
 LODE_INLINE Real quick_pow(const Real& x, double n) {
