@@ -119,9 +119,18 @@ struct Sawtooth : StrengthConstants {
         return psi_scale_ *
                (end * quick_log1p(Real((delta - elastic_limit) / elastic_limit)) - (delta - elastic_limit));
     }
+    // Halley's method: psi flattens towards u_c, where Newton's steps fall short.
     template <class Real>
     Real opening_at(const Real& psi_value) const {
-        return opening_at_psi(*this, psi_value, start_at_psi(*this, psi_value));
+        const auto residual = [&](const Real& delta) {
+            const Real inverse = 1.0 / delta, share = end * inverse;
+            return CurvedResidual<Real>{psi(delta) - psi_value, psi_scale_ * (share - 1.0),
+                                        -psi_scale_ * (share * inverse)};
+        };
+        const Real least(max(elastic_limit, 1e-12 * end)), most(end);
+        return solve_bracketed<Slope::increasing>(residual, least, most, start_at_psi(*this, psi_value),
+                                                  4e-16 * psi(most))
+            .x;
     }
 
   private:
