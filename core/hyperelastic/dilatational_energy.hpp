@@ -45,11 +45,6 @@ struct VolumeRatio {
   private:
     // ln J = 2 artanh(s) = 2 s (1 + x tail) with s = j/(2 + j) and x = s^2: nothing cancels, no logarithm is needed,
     // and the rest of the series is below the rounding errors for 1/2 <= J <= 2, |s| <= 1/3.
-    Real far_logarithm() const {
-        if constexpr (std::is_same_v<Real, double>)
-            return J > 0.0 && is_finite(J) ? quick_log(J) : std::numeric_limits<double>::quiet_NaN();
-        else return log(J);
-    }
     Mask<Real> is_near_one() const { return abs(j - 0.25) <= Real(0.75); }
     struct Series {
         Real s, x, tail;
@@ -63,6 +58,12 @@ struct VolumeRatio {
             tail = (t0 + x4 * t4) + (x4 * x4) * (t8 + x4 * t12);
         }
     };
+    // Elsewhere; not a number where J is not a positive one.
+    Real far_logarithm() const {
+        if constexpr (std::is_same_v<Real, double>)
+            return J > 0.0 && is_finite(J) ? quick_log(J) : std::numeric_limits<double>::quiet_NaN();
+        else return log(J);
+    }
 };
 
 struct DilatationalEnergy {
