@@ -16,6 +16,8 @@ namespace {
 using Eigen::Matrix3d;
 
 constexpr double time_increment = 1.0 / path_increments;
+// The one field variable: a moisture content, a phase of fracture or a small pressure.
+constexpr double field_value = 0.2;
 
 std::string last_error;
 std::mutex error_guard;
@@ -170,7 +172,7 @@ UmatPoints::UmatPoints(lode_umat_function* umat, const Material& material, Layou
 
 inline void UmatPoints::call(std::size_t point) {
     static constexpr double time[2] = {1.0, 1.0}, dtime = time_increment, temp = 293.15, dtemp = 0.0, celent = 1.0;
-    static constexpr double no_field[1] = {0.0}, coords[3] = {0.0, 0.0, 0.0};
+    static constexpr double field[1] = {field_value}, no_change[1] = {0.0}, coords[3] = {0.0, 0.0, 0.0};
     static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     static constexpr int one = 1, jstep[4] = {1, 1, 0, 0};
     const auto n = static_cast<std::size_t>(ntens_);
@@ -178,7 +180,7 @@ inline void UmatPoints::call(std::size_t point) {
     pnewdt_ = 1.0;
     umat_(&work_stress_[point * n], &work_state_[point * static_cast<std::size_t>(nstatv_)], ddsdde_.data(), &sse_,
           &spd_, &scd_, &rpl_, ddsddt_.data(), drplde_.data(), &drpldt_, &strain_[point * n],
-          &strain_increment_[point * n], time, &dtime, &temp, &dtemp, no_field, no_field, cmname_.data(), &layout_.ndi,
+          &strain_increment_[point * n], time, &dtime, &temp, &dtemp, field, no_change, cmname_.data(), &layout_.ndi,
           &layout_.nshr, &ntens_, &nstatv_, material_.constants.data(), &nprops_, coords, identity, &pnewdt_, &celent,
           &deformation_start_[point * 9], &deformation_end_[point * 9], &one, &one, &one, &one, jstep, &one,
           cmname_.size());
@@ -218,6 +220,7 @@ VumatBlock::VumatBlock(lode_vumat_function* vumat, const Material& material, Lay
     allocate(points);
     for (auto* v : {&length_, &density_}) std::fill(v->begin(), v->end(), 1.0);
     std::fill(temperature_.begin(), temperature_.end(), 293.15);
+    std::fill(field_.begin(), field_.end(), field_value);
     for (std::size_t j = 0; j < material.initial_state.size(); ++j)
         std::fill_n(&state_new_[j * points], points, material.initial_state[j]);
 
@@ -297,9 +300,9 @@ void VumatBlock::allocate(std::size_t points) {
 
 void VumatBlock::run() {
     static constexpr double step_time = 1.0, total_time = 1.0, dt = time_increment;
-    static constexpr int no_fields = 0, no_anneal = 0;
-    vumat_(&count_, &layout_.ndi, &layout_.nshr, &nstatv_, &no_fields, &nprops_, &no_anneal, &step_time, &total_time,
-           &dt, cmname_.data(), coord_.data(), length_.data(), material_.constants.data(), density_.data(),
+    static constexpr int fields = 1, no_anneal = 0;
+    vumat_(&count_, &layout_.ndi, &layout_.nshr, &nstatv_, &fields, &nprops_, &no_anneal, &step_time, &total_time, &dt,
+           cmname_.data(), coord_.data(), length_.data(), material_.constants.data(), density_.data(),
            strain_increment_.data(), spin_.data(), temperature_.data(), stretch_old_.data(), defgrad_old_.data(),
            field_.data(), stress_old_.data(), state_old_.data(), intern_old_.data(), inelas_old_.data(),
            temperature_.data(), stretch_new_.data(), defgrad_new_.data(), field_.data(), stress_new_.data(),

@@ -30,7 +30,9 @@ struct IsoDamage {
           expansion{p[iso_damage::ALPHA], p[iso_damage::BETA]},
           fixed_length(p[iso_damage::HFIX]),
           reduces_strength(p.code(iso_damage::HPOL) == 1),
-          deletes(p.code(iso_damage::DELFLAG) == 1) {
+          deletes(p.code(iso_damage::DELFLAG) == 1),
+          steps(p.code(iso_damage::METH) == 1) {
+        if (steps && metric != StrainMetric::energy) p.refuse(iso_damage::METH, "0 for METRIC 1, 2");
         if (!is_mixed()) return;
         if (shear_strength == 0.0) p.refuse(iso_damage::TAUC, "> 0 for METRIC 2");
         if (shear_toughness == 0.0) p.refuse(iso_damage::GIIC, "> 0 for METRIC 2");
@@ -68,7 +70,15 @@ struct IsoDamage {
         Damage<Real> damage{state[D], state[DELTA_N], state[DELTA_S]};
         const Real mode = state[MODE];
         Outcome<Real> outcome{failed_before, Mask<Real>(false), mode, zero, zero};
-        if (!all(failed_before)) grow(!failed_before, intact, step, damage, outcome, tangent);
+        [[maybe_unused]] Stress<kind, Real> gradient{};
+        if (steps) [[unlikely]] {
+            const RateStep<kind, Real> rate = step_by_rate(!failed_before, intact, step, damage, outcome);
+            damage = rate.damage;
+            outcome = rate.outcome;
+            gradient = rate.gradient;
+        } else if (!all(failed_before)) {
+            grow(!failed_before, intact, step, damage, outcome, tangent);
+        }
 
         // Step 6.
         const Real intactness = max(one - damage.value, Real(residual_stiffness));
@@ -77,7 +87,7 @@ struct IsoDamage {
         point.plastic_dissipation = outcome.dissipated;
         if constexpr (kind == AnalysisKind::plane_stress)
             point.thickness_strain_increment = step.residual - lateral<kind>() * trace(step.change);
-        if constexpr (wants_tangent<T>) set_tangent(step, damage, outcome, intactness, tangent);
+        if constexpr (wants_tangent<T>) set_tangent(step, damage, outcome, gradient, intactness, tangent);
 
         const Mask<Real> damaged = !intact || outcome.grows || outcome.failed;
         const Real total = state[W] + outcome.dissipated, length = select(damaged, step.size.length, state[H]);
@@ -102,6 +112,7 @@ struct IsoDamage {
     ResidualExpansion expansion;
     double fixed_length;
     bool reduces_strength, deletes;
+    bool steps;  // METH = 1
 
   private:
     template <AnalysisKind kind, class Real>
@@ -254,6 +265,72 @@ struct IsoDamage {
         }
     }
 
+    // METH = 1 (Nairn, 6.2.3): d(delta) = sigma : d(eps)/(F (1 + F'/E)) at the rates of the start, from where the
+    // strain of the start, drawn out, reaches the surface or the largest strain so far. METRIC 0 only. By value, so
+    // that the point of the caller stays in registers.
+    template <AnalysisKind kind, class Real>
+    struct RateStep {
+        Damage<Real> damage;
+        Outcome<Real> outcome;
+        Stress<kind, Real> gradient{};  // of the strain beyond the surface
+    };
+    template <AnalysisKind kind, class Real>
+    [[gnu::noinline, gnu::cold]] RateStep<kind, Real> step_by_rate(Mask<Real> alive, Mask<Real> intact,
+                                                                   Step<kind, Real> step, Damage<Real> damage,
+                                                                   Outcome<Real> outcome) const {
+        const Real one(1.0), tiny(1e-300);
+        Branch<Real> b;
+        b.direction = direction(normal_law, step.size, strength, toughness, elastic.young);
+        const Mask<Real> preset = alive && !intact && !step.size.frozen;
+        if (any(preset))
+            damage.normal = select(preset, cracking_strain(normal_law, b.direction, damage.value, Real(0.0), preset),
+                                   damage.normal);
+        const Real r = b.direction.brittleness, L = b.direction.length;
+        b.u_old = damage.normal / L;
+        const Softened<Real> s = normal_law.at(b.u_old);
+        const Real surface = L * s.strain(r);  // e(delta)
+
+        Strain<kind, Real> strain_old = step.strain;
+        for (int i = 0; i < components(kind); ++i) strain_old[i] = strain_old[i] - step.change[i];
+        const Stress<kind, Real> stress_old = elastic.stress<kind>(strain_old);
+        const double compliance = 1.0 / elastic.young;
+        const Real old_square = compliance * double_contraction(stress_old, strain_old),
+                   square_now = (2.0 * compliance) * step.energy;
+        const Real old = sqrt(max(old_square, tiny)), now = sqrt(max(square_now, tiny));
+        // Where the last steps have left the surface, it is not reached again before the largest strain.
+        const Real reached = max(surface, damage.shear);
+        const Mask<Real> grows = alive && now > (1.0 + softening_growth_tolerance) * reached;
+        // Where it leads nowhere, or there is no strain at the start, along the strain of the end.
+        const Real stretch = reached / old;
+        const Real beyond =
+            (compliance * stretch * double_contraction(stress_old, step.strain) - square(reached)) / surface;
+        const Mask<Real> from_start = old > 1e-6 * surface && beyond > Real(0.0);
+        const Real excess = select(from_start, beyond, now - reached);
+        const Real stiff = L * (1.0 + r * s.slope);
+        b.u = b.u_old + select(grows, excess, Real(0.0)) / stiff;
+        const Mask<Real> fails = grows && b.u >= Real(normal_law.end());
+        b.u = select(fails, Real(normal_law.end()), b.u);
+        const Softened<Real> at = normal_law.at(b.u);
+        const Real strain = at.strain(r);
+        const Mask<Real> softens = grows && !fails;
+        const Real value = select(fails, one, select(softens, max(Real(b.u / strain), damage.value), damage.value));
+
+        RateStep<kind, Real> result{damage, outcome};
+        result.outcome.dissipated = select(grows, dissipation(normal_law, b, damage.value, value, fails), Real(0.0));
+        result.outcome.failed = outcome.failed || fails;
+        result.outcome.grows = softens;
+        result.outcome.mode = select(grows, one, outcome.mode);
+        result.damage.value = value;
+        result.damage.normal = select(grows, b.u * L, damage.normal);
+        result.damage.shear = select(alive, max(damage.shear, now), damage.shear);
+        if constexpr (std::is_same_v<Real, double>) {
+            result.outcome.rate = r * at.phi() / (square(strain) * stiff);
+            const double factor = compliance * (from_start ? stretch / surface : 1.0 / now);
+            result.gradient = factor * (from_start ? stress_old : step.stress);
+        }
+        return result;
+    }
+
     // The point of the law at eps_eff, where that is beyond the surface.
     template <class Real>
     LODE_INLINE void soften(const SofteningLaw& law, const Real& strain, const Real& delta, Branch<Real>& b) const {
@@ -310,10 +387,12 @@ struct IsoDamage {
     // (1 - D) C - s~ (x) dD/d(eps)
     template <AnalysisKind kind>
     LODE_INLINE void set_tangent(const Step<kind, double>& step, const Damage<double>& damage,
-                                 const Outcome<double>& outcome, double intactness, Tangent<kind>& tangent) const {
+                                 const Outcome<double>& outcome, const Stress<kind, double>& gradient,
+                                 double intactness, Tangent<kind>& tangent) const {
         const bool by_damage = outcome.grows && 1.0 - damage.value >= residual_stiffness;
         Stress<kind, double> rate{};
-        if (by_damage)
+        if (by_damage && steps) rate = outcome.rate * gradient;
+        else if (by_damage)
             rate =
                 outcome.rate * step.measured.gradient(metric, elastic, step.stress, is_mixed() && outcome.mode == 2.0);
         if constexpr (kind == AnalysisKind::uniaxial) {

@@ -27,7 +27,8 @@ enum Property {
     BETA,
     HFIX,
     HPOL,
-    DELFLAG
+    DELFLAG,
+    METH
 };
 // 1-based STATEV indices; the effective strain comes first.
 enum Slot { D = 7, DELTA_N, DELTA_S, STATE, W, H, MODE, STATUS, REL_S, REL_G, count = REL_G };
@@ -58,6 +59,8 @@ inline constexpr lode_parameter parameters[] = {
              "0 refuse it, 1 reduce the strength"),
     optional("DELFLAG", "STATUS of a failed point", "code", code(0, 1), 0.0,
              "1: it becomes 0, so that the host deletes the element"),
+    optional("METH", "damage of an increment", "code", code(0, 1), 0.0,
+             "0 from the strain at its end; 1 by the rate at its start (METRIC 0)"),
 };
 inline constexpr lode_state states[] = {
     {"E11", "effective (mechanical) strain 11", 0.0},
@@ -68,7 +71,7 @@ inline constexpr lode_state states[] = {
     {"E23", "effective strain 23 (engineering)", 0.0},
     {"D", "damage", 0.0},
     {"DELTA_N", "critical cracking strain of LAW", 0.0},
-    {"DELTA_S", "critical cracking strain of LAW_II, METRIC 2", 0.0},
+    {"DELTA_S", "critical cracking strain of LAW_II, METRIC 2; METH 1: largest effective strain", 0.0},
     {"STATE", "0 intact, 1 damaged, 2 failed", 0.0},
     {"W", "dissipated energy per volume; H W per area", 0.0},
     {"H", "characteristic length, frozen at the first damage", 0.0},
@@ -85,11 +88,14 @@ inline constexpr double concrete[] = {30000, 0.2, 3, 2, 0.1, 1, 0, 1, 0, 0, 0, 0
 inline constexpr double limestone[] = {20000, 0.25, 5, 3, 0.1, 2, 4, 2, 0.3, 0, 0, 0, 0, 0.01, 1e-6, 0, 0, 30};
 inline constexpr double bone[] = {15000, 0.3, 8,   5,    0.5,  2,    7,   6,   0.8, 3,
                                   0.6,   1.5, 0.0, 0.01, 1e-3, 2e-5, 0.1, 100, 1,   1};
+inline constexpr double steps[] = {3500, 0.35, 60, 2, 0.4, 0, 0, 1, 0, 0, 0, 0, 0, 0.01, 1e-6, 0, 0, 0.3, 0, 0, 1};
 inline constexpr lode_sample samples[] = {
     {"RESIN", "brittle resin, strain energy, linear softening, N, mm", resin, count_of(resin), 0.03, continuum_kinds},
     {"CONCRETE-C30", "plain concrete, tensile strain energy, exponential softening, residual stiffness, N, mm, K",
      concrete, count_of(concrete), 6e-4, continuum_kinds},
     {"LIMESTONE", "limestone, tension and shear with laws of their own, N, mm", limestone, count_of(limestone), 1e-3,
+     continuum_kinds},
+    {"RESIN-STEPS", "tougher resin, exponential softening, damage by its rate, N, mm", steps, count_of(steps), 0.03,
      continuum_kinds},
     {"BONE", "cortical bone, rising laws, strength reduced for a large element, all options, N, mm, K", bone,
      count_of(bone), 2e-3, continuum_kinds},
@@ -98,7 +104,8 @@ inline constexpr lode_sample samples[] = {
 inline constexpr lode_algorithm algorithms[] = {
     {"damage from the strain at the end of the increment, exact; the dissipation is exact for METRIC 0 and on "
      "proportional paths",
-     0, 0.0, 1.0},
+     METH, 0.0, 1.0},
+    {"damage by the rate at the start of the increment (the source)", METH, 1.0, 1.0},
 };
 
 inline constexpr lode_model description = {
@@ -137,6 +144,9 @@ inline constexpr lode_model description = {
         "- Laws 2, 5, 6 fail at FMIN: the stress jumps by FMIN times the strength, and the tail of the toughness "
         "beyond it is not dissipated.\n"
         "- KRES > 0: W ends where the stress stops to fall, at D = 1 - KRES.\n"
+        "- METH = 1 is there to be compared: of first order, with a tangent of its own. The stress may leave the "
+        "surface, "
+        "and SSE + SPD the work done, by the error of the increments.\n"
         "- An initial stress is taken as that of the sound material. PNEWDT is not touched unless a value on entry is "
         "not finite.\n",
 };

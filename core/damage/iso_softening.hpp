@@ -17,7 +17,7 @@ struct IsoSoftening {
           crack(SofteningLaw(p, iso_softening::LAW_I, iso_softening::A1_I, iso_softening::A2_I, iso_softening::FMIN),
                 SofteningLaw(p, iso_softening::LAW_II, iso_softening::A1_II, iso_softening::A2_II, iso_softening::FMIN),
                 static_cast<TractionSurface>(p.code(iso_softening::SURF)), p[iso_softening::MIX_I],
-                p[iso_softening::MIX_II], p[iso_softening::MU]),
+                p[iso_softening::MIX_II], p[iso_softening::MU], p.code(iso_softening::METH) == 1),
           pressure(p.code(iso_softening::PDM), p[iso_softening::TAUC], p[iso_softening::TAUH], p[iso_softening::P1],
                    p[iso_softening::P2]),
           strength_I(p[iso_softening::SIGC]),
@@ -114,6 +114,8 @@ struct IsoSoftening {
         if (couples && strength_I == 0.0) p.refuse(SIGC, "> 0 for SURF 2, 3, 4");
         if (couples && strength_II == 0.0) p.refuse(TAUC, "> 0 for SURF 2, 3, 4");
         const int model = p.code(PDM);
+        if (crack.steps() && couples && surface != TractionSurface::ovoid) p.refuse(METH, "0 for SURF 3, 4");
+        if (crack.steps() && model != 0) p.refuse(METH, "0 with a pressure dependence (PDM)");
         if (model == 0) return;
         if (couples && surface != TractionSurface::ovoid) p.refuse(PDM, "0 for SURF 3, 4");
         if (strength_II == 0.0) p.refuse(TAUC, "> 0 with a pressure dependence (PDM)");
@@ -209,7 +211,10 @@ struct IsoSoftening {
         axes.set_third();
         set_stiffness_vectors(crack_update);
 
-        const Mask<Real> damaging = step.cracks || (!intact && stage < Real(1.5));
+        // The increment in which a crack forms is exact in any case.
+        const Mask<Real> cracked = !intact && stage < Real(1.5);
+        const Mask<Real> stepping = cracked && Mask<Real>(crack.steps());
+        const Mask<Real> damaging = step.cracks || (cracked && !stepping);
         std::conditional_t<wants_tangent<T>, DamageRates<Update::m>, NoRates> rates;
         const auto damage = [&](const auto& q_old, const auto& q) LODE_INLINE_LAMBDA {
             if constexpr (Update::m > 1)
@@ -220,7 +225,7 @@ struct IsoSoftening {
             return crack.damage(q_old, q, damaging, law, NoPressure{}, crack_update.now, rates);
         };
         CrackLinearisation<kind> linear;
-        crack_update.run(crack, point.stress, step.trial, stage, damaging, damage, &linear, tangent);
+        crack_update.run(crack, point.stress, step.trial, stage, damaging, stepping, damage, &linear, tangent);
 
         point.stress = crack_update.stress;
         point.elastic_energy = elastic.energy<kind>(point.stress) + crack_update.stored;

@@ -32,7 +32,8 @@ enum Property {
     TAUH,
     P1,
     P2,
-    DELFLAG
+    DELFLAG,
+    METH
 };
 
 inline constexpr lode_parameter parameters[] = {
@@ -70,6 +71,8 @@ inline constexpr lode_parameter parameters[] = {
     optional("P2", "end pressure (PDM 2) or half-rise width (PDM 3, 4)", "stress", any_value(), 0.0),
     optional("DELFLAG", "STATUS of a failed point", "code", code(0, 1), 0.0,
              "1: it becomes 0, so that the host deletes the element"),
+    optional("METH", "damage of an increment", "code", code(0, 1), 0.0,
+             "0 from the strain at its end; 1 the source's explicit step (SURF 0, 1, 2 without PDM)"),
 };
 
 // N, mm, MPa. In the plane kinds a crack contains axis 3, so where shear or a strain along 3 comes first they are not
@@ -91,6 +94,11 @@ inline constexpr double sandstone[] = {20000.0, 0.25, 5.0, 4.0,  1,   0.1,  1,  
                                        0.0,     0.0,  0.0, 0.01, 0.3, 1e-5, 0.0, 0.0, 0, 1,   12.0};
 inline constexpr double salt[] = {25000.0, 0.25, 2.0,  3.0, 3,    0.05, 2,   0.2, 2, 1.0,  1.0, 0.0, 0.0,
                                   0.0,     0.0,  0.01, 0.3, 4e-5, 0.0,  5.0, 0,   4, 15.0, 5.0, 4.0};
+// METH = 1.
+inline constexpr double steps[] = {20000.0, 0.25, 5.0, 4.0,  2,   0.1,  3, 0.3, 2,   1.0, 1.0, 0.0, 0.0, 0.0,
+                                   0.0,     0.01, 0.0, 8e-6, 0.0, 30.0, 0, 0,   0.0, 0.0, 0.0, 0,   1};
+inline constexpr double tension_steps[] = {4000.0, 0.2,  2.0, 0.0,    2,   0.03, 1, 0.03, 0,   1.0, 1.0, 0.0, 0.0, 0.0,
+                                           0.0,    1e-3, 0.0, 1.2e-5, 0.0, 10.0, 0, 0,    0.0, 0.0, 0.0, 0,   1};
 inline constexpr lode_sample samples[] = {
     {"CONCRETE-C30", "plain concrete in tension, linear softening, N, mm", concrete, count_of(concrete), 5e-4,
      tension_kinds},
@@ -105,6 +113,8 @@ inline constexpr lode_sample samples[] = {
     {"SANDSTONE", "sandstone, cylinder, shear strength linear in pressure, friction, N, mm, K", sandstone,
      count_of(sandstone), 1e-3, LODE_SOLID},
     {"SALT", "rock salt, ovoid, sigmoidal shear strength, N, mm, K", salt, count_of(salt), 1e-3, LODE_SOLID},
+    {"CERAMIC-STEPS", "the ceramic by explicit steps", steps, count_of(steps), 2e-3, LODE_SOLID},
+    {"GYPSUM-STEPS", "the gypsum by explicit steps", tension_steps, count_of(tension_steps), 2e-3, tension_kinds},
     {"ROCK-2D", "the limestone in plane kinds", rock, count_of(rock), 1e-3, plane_kinds},
     {"CERAMIC-2D", "the ceramic in plane kinds", ceramic, count_of(ceramic), 2e-3, plane_kinds},
     {"MORTAR-2D", "the mortar in plane kinds", mortar, count_of(mortar), 2e-3, plane_kinds},
@@ -113,7 +123,8 @@ inline constexpr lode_sample samples[] = {
 
 inline constexpr lode_algorithm algorithms[] = {
     {"damage from the strain at the end of the increment, exact but for where in the increment a crack forms or fails",
-     0, 0.0, 1.0},
+     METH, 0.0, 1.0},
+    {"explicit step of the source", METH, 1.0, 1.0},
 };
 
 inline constexpr lode_model description = {
@@ -152,7 +163,11 @@ inline constexpr lode_model description = {
         "- The normal belongs to the trial stress at the end of the increment in which the crack forms.\n"
         "- In the plane kinds the crack contains axis 3. One crack a point: stress along it is unbounded.\n"
         "- PDM 1 under tension would give a negative strength: floor 0.001 TAUC.\n"
-        "- DDSDDE of an open failed crack is singular and returned as it is.\n",
+        "- DDSDDE of an open failed crack is singular and returned as it is.\n"
+        "- METH = 1 is there to be compared: of first order, with a tangent of its own. Tractions may leave the "
+        "surface "
+        "and linked damages drift apart by the error of the increments, and so do SSE + SPD from the work done. The "
+        "increment in which a crack forms is that of METH = 0.\n",
 };
 
 }  // namespace lode::iso_softening

@@ -206,7 +206,8 @@ struct OrthoSoftening {
             return crack.damage(q_old, q, damaging, crack_update.law, NoPressure{}, crack_update.now, rates);
         };
         CrackLinearisation<kind> linear;
-        crack_update.run(crack, step.stress_old, step.trial, stage, damaging, damage, &linear, tangent);
+        crack_update.run(crack, step.stress_old, step.trial, stage, damaging, Mask<Real>(false), damage, &linear,
+                         tangent);
 
         set_thickness(point, step, crack_update.stress);
         point.elastic_energy = planes<kind>().template energy<kind, Real>(crack_update.stress) + crack_update.stored;

@@ -21,7 +21,8 @@ struct PhaseField {
           part(static_cast<EnergySplitCode>(p.code(phase_field::PART))),
           source(static_cast<Source>(p.code(phase_field::PHISRC))),
           expansion{p[phase_field::ALPHA], p[phase_field::BETA], 2},
-          initiation_energy(p[phase_field::PSII]) {
+          initiation_energy(p[phase_field::PSII]),
+          method(static_cast<Method>(p.code(phase_field::METH))) {
         using namespace phase_field;
         if (part == EnergySplitCode::principal_strains && p[NU] < 0.0) p.refuse(NU, ">= 0 for PART 2");
         if (source == Source::temperature && p[ALPHA] != 0.0)
@@ -48,6 +49,10 @@ struct PhaseField {
             if (source == Source::local) [[unlikely]]
                 return point.refuse(Mask<Real>(true), "the local solution does not serve plane stress (2,1): PHISRC",
                                     one, "0 or 2");
+        if constexpr (kind == AnalysisKind::plane_stress)
+            if (method == Method::increments) [[unlikely]]
+                return point.refuse(Mask<Real>(true), "increments of stress do not serve plane stress (2,1): METH", one,
+                                    "0 or 2");
         Step<kind, Real> step;
         Real residual;
         if (!expansion.of(increment, point, residual)) return;
@@ -62,6 +67,9 @@ struct PhaseField {
         if constexpr (kind == AnalysisKind::plane_stress)
             lateral_old = select(fresh, Real((-elastic.poisson / elastic.young) * trace(point.stress)),
                                  state[effective_strain::E33]);
+        if constexpr (kind != AnalysisKind::plane_stress)
+            if (method == Method::increments) [[unlikely]]
+                step.start = at_start<kind, Real>(strain, phase_old);
         for (int i = 0; i < components(kind); ++i) strain[i] = strain[i] + increment.strain_increment[i];
         if (!expansion.is_absent()) add_to_normals(strain, normal_components(kind), -residual);
 
@@ -75,9 +83,11 @@ struct PhaseField {
         step.grows = drive > (1.0 + growth_tolerance) * history_old;
         step.history = select(step.grows, drive, history_old);
         step.advances = Mask<Real>(false);
-        if (source == Source::local && any(step.grows)) {
-            const Real root = degradation.local_phase(Real(drive_scale * step.history));
-            const Mask<Real> ahead = step.grows && root > phase_old;
+        const bool staggered = method != Method::total;
+        const Real driving = staggered ? history_old : step.history;
+        if (source == Source::local && (staggered || any(step.grows))) {
+            const Real root = degradation.local_phase(Real(drive_scale * driving));
+            const Mask<Real> ahead = (Mask<Real>(staggered) || step.grows) && root > phase_old;
             phase = select(ahead, root, phase_old);
             step.advances = ahead && root < one;
             step.degraded = degradation.at(phase);
@@ -86,19 +96,27 @@ struct PhaseField {
 
         // Step 4.
         const auto& split = step.split;
-        for (int i = 0; i < components(kind); ++i) {
-            const int k = i < normal_components(kind) ? i : i - normal_components(kind) + 3;
-            point.stress[i] = g * split.active[k] + split.passive[k];
+        if (method == Method::increments) [[unlikely]] {
+            const Start<full(kind), Real>& start = step.start;
+            const Real rate = start.degraded.slope * (phase - phase_old);
+            for (int i = 0; i < components(kind); ++i)
+                point.stress[i] = point.stress[i] + start.degraded.g * (split.active[i] - start.active[i]) +
+                                  (split.passive[i] - start.passive[i]) + rate * start.active[i];
+        } else {
+            for (int i = 0; i < components(kind); ++i) {
+                const int k = i < normal_components(kind) ? i : i - normal_components(kind) + 3;
+                point.stress[i] = g * split.active[k] + split.passive[k];
+            }
         }
         point.elastic_energy = g * split.energy + split.passive_energy;
         point.plastic_dissipation = 0.5 * (state[PSIP] + split.energy) * (degraded_old - g);
         const Real dissipated = state[W] + point.plastic_dissipation;
         if constexpr (kind == AnalysisKind::plane_stress)
             point.thickness_strain_increment = step.strain[2] - lateral_old + residual;
-        Real drives = -slope * step.history - resistance * phase;
+        Real drives = -slope * driving - resistance * phase;
         // The local solution has none, but for rounding.
         if (source == Source::local) drives = select(step.advances, Real(0.0), select(step.grows, drives, state[SRC]));
-        const Real drives_rate = -curvature * step.history - resistance;
+        const Real drives_rate = -curvature * driving - resistance;
         if constexpr (wants_tangent<T>) set_tangent(increment, step, drives, drives_rate, tangent);
 
         effective_strain::store<kind>(state, strain, step.strain[2]);
@@ -116,6 +134,9 @@ struct PhaseField {
     }
 
     enum class Source { field, local, temperature };
+    // How stress follows the strain, and the phase the history: `total` and `staggered` sum nothing up, `increments` is
+    // the source's d(sigma) = g d(sigma+) + d(sigma-) + g' sigma+ d(phi); both latter ones take H at the start.
+    enum class Method { total, increments, staggered };
 
     IsotropicModuli elastic;
     Degradation degradation;
@@ -126,6 +147,7 @@ struct PhaseField {
     double initiation_energy;  // Psi_i
     double resistance = 0.0;   // GC/ELL
     double drive_scale = 0.0;  // (1 - k) ELL/GC
+    Method method;
 
   private:
     // A zero increment must not grow H.
@@ -135,6 +157,12 @@ struct PhaseField {
     static constexpr AnalysisKind full(AnalysisKind kind) {
         return kind == AnalysisKind::plane_stress ? AnalysisKind::plane_strain : kind;
     }
+    // METH = 1: at the start, in the frame of the end.
+    template <AnalysisKind kind, class Real>
+    struct Start {
+        Degraded<Real> degraded;
+        Stress<kind, Real> active, passive;  // sigma+, sigma-
+    };
     template <AnalysisKind kind, class Real>
     struct Step {
         Strain<full(kind), Real> strain;
@@ -142,7 +170,16 @@ struct PhaseField {
         EnergySplit<full(kind), Real> split;
         Real history;
         Mask<Real> grows, advances;  // H; the local phase, short of 1
+        Start<full(kind), Real> start;
     };
+    template <AnalysisKind kind, class Real>
+    [[gnu::noinline, gnu::cold]] Start<kind, Real> at_start(Strain<kind, Real> strain, Real phase) const {
+        EnergySplit<kind, Real> split;
+        NoTangent none;
+        if (part == EnergySplitCode::dilation) split.by_dilation(elastic, strain);
+        else split.by_principal_strains(elastic, strain, none);
+        return {degradation.at(phase), split.active, split.passive};
+    }
 
     // Step 2. False where the field of the host cannot be used.
     template <AnalysisKind kind, class Real>
@@ -200,9 +237,10 @@ struct PhaseField {
     LODE_INLINE void set_tangent(const Increment<kind, double>& increment, const Step<kind, double>& step,
                                  double drives, double drives_rate, Tangent<kind>& tangent) const {
         constexpr int n = components(kind);
-        const auto& [g, slope, curvature] = step.degraded;
+        const bool sums = method == Method::increments, follows_history = method == Method::total;
+        const double g = sums ? step.start.degraded.g : step.degraded.g, slope = step.degraded.slope;
         // g' d(phi)/dH of the local solution
-        const double weight = step.advances ? slope * slope / drives_rate : 0.0;
+        const double weight = step.advances && follows_history ? slope * slope / drives_rate : 0.0;
         Stress<kind, double> active;  // sigma+, as the in-plane strain feels it
         double third = 0.0;           // d(sigma+ : eps)/d(eps33), condensed
         if constexpr (kind != AnalysisKind::plane_stress) {
@@ -230,11 +268,12 @@ struct PhaseField {
         const bool follows = increment.temperature_end() >= 0.0;
         if (follows) tangent.heat_rate_temperature = inverse * drives_rate;
         for (int i = 0; i < n; ++i) {
-            if (follows) tangent.thermal_stress[i] = slope * active[i];
-            if (step.grows) tangent.heat_rate_strain[i] = -inverse * slope * active[i];
+            if (follows)
+                tangent.thermal_stress[i] = sums ? step.start.degraded.slope * step.start.active[i] : slope * active[i];
+            if (step.grows && follows_history) tangent.heat_rate_strain[i] = -inverse * slope * active[i];
         }
         // Through eps33 of plane stress.
-        if (follows && step.grows)
+        if (follows && step.grows && follows_history)
             tangent.heat_rate_temperature += inverse * slope * slope * third * step.split.active[2];
     }
 };

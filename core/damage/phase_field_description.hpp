@@ -7,7 +7,7 @@
 namespace lode::phase_field {
 
 // 1-based PROPS indices.
-enum Property { E = 1, NU, GC, ELL, GLAW, GARG, PART, KSTAB, PHISRC, ALPHA, BETA, PSII };
+enum Property { E = 1, NU, GC, ELL, GLAW, GARG, PART, KSTAB, PHISRC, ALPHA, BETA, PSII, METH };
 // 1-based STATEV indices; the effective strain comes first.
 enum Slot { HIST = 7, PHI, G, GP, PSIP, PSIM, W, SRC, DSRC, FAILED, count = FAILED };
 
@@ -31,6 +31,9 @@ inline constexpr lode_parameter parameters[] = {
              "field 2 is read only if it is not 0"),
     optional("PSII", "energy at which damage begins", "energy/volume", any_value(), -1.0,
              "< 0: by the law, GC/(2 ELL GARG) of GLAW 4 and 0 of the others"),
+    optional("METH", "form of the update", "code", code(0, 2), 0.0,
+             "0 stress of the strain, H of the end; 1 stress by increments, H of the start; 2 stress of the strain, H "
+             "of the start"),
 };
 inline constexpr lode_state states[] = {
     {"E11", "effective (mechanical) strain 11", 0.0},
@@ -59,6 +62,7 @@ inline constexpr double local_bilinear[] = {30000, 0.2, 0.08, 5, 4, 4, 2, 1e-6, 
 inline constexpr double local_exponential[] = {210000, 0.3, 2.7, 0.1, 2, 3, 2, 1e-5, 1, 1.2e-5};
 inline constexpr double local_cubic[] = {30000, 0.2, 0.08, 5, 3, 0.9, 1, 0, 1, 0, 0, 5e-4};
 inline constexpr double steel[] = {210000, 0.3, 2.7, 0.1, 1, 1, 2, 1e-6, 2};
+inline constexpr double increments[] = {210000, 0.3, 2.7, 0.1, 1, 1, 2, 1e-6, 2, 0, 0, -1, 1};
 inline constexpr unsigned with_all_strains = LODE_SOLID | LODE_PLANE_STRAIN;
 inline constexpr unsigned all_kinds = with_all_strains | LODE_PLANE_STRESS;
 inline constexpr lode_sample samples[] = {
@@ -72,11 +76,16 @@ inline constexpr lode_sample samples[] = {
      local_exponential, count_of(local_exponential), 2e-2, with_all_strains},
     {"LOCAL-CUBIC", "concrete, cubic degradation with a threshold, local solution, N, mm", local_cubic,
      count_of(local_cubic), 1e-3, with_all_strains},
+    {"STEEL-INCREMENTAL", "the steel by increments of stress", increments, count_of(increments), 1e-2,
+     with_all_strains},
     {"STEEL", "brittle steel, the temperature is the phase, N, mm", steel, count_of(steel), 1e-2, all_kinds},
 };
 
 inline constexpr lode_algorithm algorithms[] = {
-    {"total form in the strain at the end of the increment, exact; the dissipation by the trapezoid rule", 0, 0.0, 2.0},
+    {"total form in the strain at the end of the increment, exact; the dissipation by the trapezoid rule", METH, 0.0,
+     2.0},
+    {"increments of stress, staggered (the source)", METH, 1.0, 1.0},
+    {"total form, staggered", METH, 2.0, 1.0},
 };
 
 inline constexpr lode_model description = {
@@ -124,7 +133,13 @@ inline constexpr lode_model description = {
         "- The strength is tied to sqrt(GC E/ELL): choose ELL by it, or GLAW 4 with GARG = GC E/(ELL strength^2).\n"
         "- tr eps = 0 and, in PART 2, a principal strain of 0 are kinks: DDSDDE is that of the compressive side.\n"
         "- PART 2 with NU < 0 is refused: plane stress would not be unique.\n"
-        "- An initial stress is taken as that of the sound material.\n",
+        "- An initial stress is taken as that of the sound material.\n"
+        "- METH = 1 and 2 are there to be compared, of first order. The history that drives the phase (PHISRC 1), SRC "
+        "and "
+        "RPL is that of the start: an increment without strain lets the local phase catch up. METH = 1 sums up stress "
+        "at "
+        "the rates of the start, which drifts: a failed point may keep a stress, and SSE is that of the strain. Not in "
+        "plane stress.\n",
 };
 
 }  // namespace lode::phase_field

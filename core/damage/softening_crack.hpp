@@ -25,21 +25,33 @@ struct DamageRates {
 };
 struct NoRates {};
 
+// What an explicit step (softening_explicit.hpp) leaves: the state with its cracking strains, and, at a UMAT point,
+// B = d(strain)/dq.
+template <int m, class Real>
+struct ExplicitStep {
+    CrackState<m, Real> crack;
+    Mask<Real> fails;
+    double B[m][m];
+};
+
 // `isotropic`: both shears have the same law and constants.
 template <bool isotropic>
 class SofteningCrack : public LinkedSoftening {
   public:
+    // `steps`: by explicit steps, with SURF 0, 1, 2 of an isotropic crack.
     SofteningCrack(const SofteningLaw& normal, const SofteningLaw& shear, TractionSurface surface, double mix_I,
-                   double mix_II, double friction)
+                   double mix_II, double friction, bool steps = false)
         : LinkedSoftening(normal, shear),
           surface_(surface),
           exponent_I_(mix_I),
           exponent_II_(mix_II),
           has_criterion_(mix_I > 0.0 && mix_II > 0.0 &&
                          (surface == TractionSurface::cuboid || surface == TractionSurface::cylinder)),
-          friction_(friction) {}
+          friction_(friction),
+          steps_(steps) {}
 
     TractionSurface surface() const { return surface_; }
+    bool steps() const { return isotropic && steps_; }
 
     // Damage, delta and dissipated energies at the end, from those at the start, in the lanes `active`. Returns the
     // lanes that fail. The laws of shear are left as they are at the end (pressure).
@@ -96,6 +108,12 @@ class SofteningCrack : public LinkedSoftening {
             if (!fails) set_rates(direction, pressure, tau, g, rates);
         return fails;
     }
+
+    // The source's explicit step in the lanes `active`. By value, so that the crack of the caller stays in registers.
+    template <int m, class Real>
+    [[gnu::noinline, gnu::cold]] ExplicitStep<m, Real> explicit_step(
+        Vector<Real, m> q_old, Vector<Real, m> q_end, CrackState<m, Real> crack, Mask<Real> active,
+        Vector<SofteningDirection<Real>, m> direction) const;
 
     // Cracking strains of a failed crack (section 5.4): open, or closed and sticking or sliding. `B` = d(strain)/dq.
     template <int m, class Real>
@@ -166,6 +184,7 @@ class SofteningCrack : public LinkedSoftening {
     double exponent_I_, exponent_II_;
     bool has_criterion_;
     double friction_;
+    bool steps_;
 
     bool is_coupled() const {
         return surface_ == TractionSurface::coupled_cuboid || surface_ == TractionSurface::coupled_cylinder;

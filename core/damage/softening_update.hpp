@@ -1,6 +1,7 @@
 // One increment of a solid with a crack (page 30, sections 5 to 7), in a frame in which its stiffness is known.
 #pragma once
 
+#include "lode/damage/softening_explicit.hpp"
 #include "lode/damage/softening_state.hpp"
 #include "lode/damage/softening_tangent.hpp"
 
@@ -16,16 +17,17 @@ struct CrackUpdate {
     Stress<kind, Real> stiffness[m];  // C_a m_a: d(sigma)/d(EC_a) = -C_a m_a, q_a = m_a . eps
     CrackState<m, Real> old, now;
     Vector<Real, m> q;
-    Mask<Real> failed;
+    Mask<Real> failed, stepped;
     Stress<kind, Real> stress;
     Real stored, dissipated, friction_work;  // `stored`: in the crack
 
     // `stage`: STATE on entry; `damaging`: points whose damage may grow; `damage(q_old, q)` lets it grow, changes `now`
-    // and returns those that fail.
+    // and returns those that fail; `stepping`: points that take an explicit step instead.
     template <bool isotropic, class Damage, class T>
     LODE_INLINE void run(const SofteningCrack<isotropic>& crack, const Stress<kind, Real>& stress_old,
                          const Stress<kind, Real>& trial, const Real& stage, const Mask<Real>& damaging,
-                         const Damage& damage, [[maybe_unused]] CrackLinearisation<kind>* linear, T&) {
+                         const Mask<Real>& stepping, const Damage& damage,
+                         [[maybe_unused]] CrackLinearisation<kind>* linear, T&) {
         const Real zero(0.0);
         // Effective strains on each side of the increment: q = T/C + EC.
         const Vector<Real, m> traction_old = axes.template tractions<kind>(stress_old);
@@ -44,6 +46,20 @@ struct CrackUpdate {
         now.strain[0] = now.damage[0] * positive_part(q[0]);
         for (int j = 1; j < m; ++j) now.strain[j] = now.damage[j] * q[j];
         friction_work = zero;
+        stepped = stepping;
+        if constexpr (isotropic)
+            if (any(stepping)) [[unlikely]] {
+                const ExplicitStep<m, Real> step = crack.explicit_step(q_old, q, old, stepping, law);
+                for (int j = 0; j < m; ++j) {
+                    now.delta[j] = select(stepping, step.crack.delta[j], now.delta[j]);
+                    now.damage[j] = select(stepping, step.crack.damage[j], now.damage[j]);
+                    now.strain[j] = select(stepping, step.crack.strain[j], now.strain[j]);
+                    now.dissipated[j] = select(stepping, step.crack.dissipated[j], now.dissipated[j]);
+                    if constexpr (wants_tangent<T>)
+                        for (int k = 0; k < m; ++k) linear->B[j][k] = step.B[j][k];
+                }
+                failed = failed || (stepping && step.fails);
+            }
         if (any(failed)) {
             Vector<Real, m> strain;
             if constexpr (wants_tangent<T>) strain = crack.failed_strain(q, old.strain, law, friction_work, linear->B);
@@ -71,7 +87,7 @@ struct CrackUpdate {
             linear.modulus[j] = law[j].modulus;
             linear.stiffness[j] = stiffness[j];
         }
-        if (!failed) linear.set_damaged(q, now.damage, rates, K);
+        if (!failed && !stepped) linear.set_damaged(q, now.damage, rates, K);
     }
 };
 

@@ -99,13 +99,10 @@ TEST_P(ClaimedOrders, ShowOnBuiltInPaths) {
     }
 }
 
-// A porous version calls the kernels of its solid, whose claims are looked at; it has but two of the samples to show
-// them.
 std::vector<const lode_model*> models_that_claim() {
     std::vector<const lode_model*> models;
     for (const lode_model* model : library().models())
-        if (model->algorithm_count > 0 && !std::string_view(model->keyword).starts_with("POROUS_"))
-            models.push_back(model);
+        if (model->algorithm_count > 0) models.push_back(model);
     return models;
 }
 INSTANTIATE_TEST_SUITE_P(Registry, ClaimedOrders, testing::ValuesIn(models_that_claim()),

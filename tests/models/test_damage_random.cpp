@@ -153,6 +153,12 @@ TEST(DamageRandom, IsoSoftening) {
                                  solid,
                                  2e-3,
                                  4.0});
+    for (int surface = 0; surface < 3; ++surface) {
+        Numbers by_steps = {20000, 0.25, 5, 6, 3, 0.1, 6, 0.3, double(surface), 1.5, 1, 0, 0, 1.5, 0, 0.01, 0.3};
+        by_steps.resize(27, 0.0);
+        by_steps[26] = 1;
+        for (const AnalysisKind kind : {solid, plane_stress}) materials.push_back({by_steps, kind, 2e-3, 4.0});
+    }
     walk("ISO_SOFTENING", materials, {{11, 12, 13}, {17, 18, 19, 22}});
 }
 
@@ -182,6 +188,9 @@ TEST(DamageRandom, PhaseField) {
                         if (source == 0.0 || kind != plane_stress)
                             materials.push_back(
                                 {{30000, 0.2, 0.08, 5, law, argument, part, k, source}, kind, 1e-3, 1.0});
+    for (const double part : {1.0, 2.0})
+        for (const double method : {1.0, 2.0})
+            materials.push_back({{30000, 0.2, 0.08, 5, 1, 1, part, 1e-4, 1, 0, 0, -1, method}, solid, 1e-3, 1.0});
     // PHI grows as the host lets it; HIST never falls.
     walk("PHASE_FIELD", materials, {{8, 16}, {7, 13}}, 9);
 }

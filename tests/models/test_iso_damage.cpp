@@ -270,6 +270,59 @@ TEST(IsoDamage, ResidualStiffness) {
 
 std::string refusal(const Numbers& props) { return damage_cases::refusal("ISO_DAMAGE-X", props, uniaxial); }
 
+// METH = 1 (section 4, alternatives): of first order towards the exact damage, stress and dissipation; with its own
+// tangent; in VUMAT as in UMAT.
+TEST(IsoDamage, DamageByItsRateIsOfFirstOrder) {
+    const auto by_rate = [](double method) {
+        Numbers props = base(2);
+        props.resize(21, 0.0);
+        props[7] = 1, props[13] = 0.01, props[20] = method;
+        return props;
+    };
+    const Numbers legs[] = {{3e-4, -5e-5, 0, 2e-4, 0, 0}, {-1e-4, 3e-4, 1e-4, 6e-4, 3e-4, 0}};
+    const auto after = [&](double method, int increments) {
+        UmatPoint point = made(solid, by_rate(method));
+        for (const Numbers& leg : legs)
+            for (int i = 0; i < increments; ++i) {
+                Numbers d = leg;
+                for (double& x : d) x /= increments;
+                point.advance({.dstran = d});
+            }
+        return point;
+    };
+    const UmatPoint exact = after(0, 1);
+    double last = 0.0, last_work = 0.0;
+    for (const int increments : {20, 80, 320}) {
+        const UmatPoint point = after(1, increments);
+        const double error = distance(point.stress(), exact.stress()) / largest(exact.stress());
+        const double work = std::abs(point.spd() / exact.spd() - 1.0);
+        EXPECT_LE(error, 2.0 / increments);
+        EXPECT_GT(error, 1e-3 / increments);
+        if (last > 0.0) {
+            EXPECT_NEAR(error, 0.25 * last, 0.05 * last);
+            EXPECT_NEAR(work, 0.25 * last_work, 0.05 * last_work);
+        }
+        last = error, last_work = work;
+    }
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (const AnalysisKind kind : {solid, plane_strain, plane_stress, uniaxial})
+        for (int trial = 0; trial < 10; ++trial) {
+            UmatPoint point = made(kind, by_rate(1));
+            std::vector<Numbers> path(4, Numbers(point.size()));
+            for (Numbers& d : path)
+                for (double& x : d) x = 2e-4 * normal(random);
+            for (int i = 0; i < 3; ++i) point.advance({.dstran = path[std::size_t(i)]});
+            const Load load{.dstran = path.back()};
+            const Eigen::MatrixXd difference = central_difference(point, load, 1e-9);
+            EXPECT_LE((point.evaluate(load).tangent - difference).cwiseAbs().maxCoeff(), 1e-6 * 24000);
+            expect_same_in_vumat(made(kind, by_rate(1)), path);
+        }
+    Numbers mixed = by_rate(1);
+    mixed[5] = 1;
+    expect_message(refusal(mixed), {"METH", "METRIC 1, 2"});
+}
+
 TEST(IsoDamage, RefusesConstants) {
     expect_message(refusal(base(7)), {"ISO_DAMAGE-X", "PROPS(4) = 7", "LAW", "1..6"});
     expect_message(refusal(base(1, {3})), {"PROPS(6) = 3", "METRIC", "0..2"});
