@@ -34,8 +34,9 @@ struct Shown {
     double best = 0;  // of the fitted orders
 };
 
-// Error-controlled algorithms show an order only where increments are smaller than their substeps: `finest` is false
-// for a first look, after which failures call for a closer one. True if a closer look is wanted.
+// Error-controlled algorithms show an order only where increments are smaller than their substeps, and energies of
+// linked damages only where the shares of the directions hardly change in one: `finest` is false for a first look,
+// after which failures call for a closer one. True if a closer look is wanted.
 bool examine(const Chart& chart, std::map<std::string, Shown>& shown, bool at_corner, bool finest) {
     bool closer = false;
     for (const Series& series : chart.series) {
@@ -58,6 +59,7 @@ bool examine(const Chart& chart, std::map<std::string, Shown>& shown, bool at_co
             algorithm.measured = true;
             algorithm.best = std::max(algorithm.best, *series.order);
         } else if (series.largest_dissipation_error() > series.exact_enough() && series.dissipation_order) {
+            closer = closer || *series.dissipation_order < series.claimed_order - order_tolerance;
             algorithm.measured = true;
             algorithm.best = std::max(algorithm.best, *series.dissipation_order);
         }
