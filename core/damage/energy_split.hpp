@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/tensor/eigen_deflation.hpp"
 #include "lode/tensor/spectral.hpp"
 
 namespace lode {
@@ -119,11 +120,10 @@ struct EnergySplit {
     static constexpr bool in_space = kind == AnalysisKind::solid;
 
     // By value, so that the point of the caller stays in registers.
-    [[gnu::noinline]] static SymmetricEigen<double> eigen_in_space(Matrix3<double> a) {
-        return symmetric_eigen<AnalysisKind::solid>(a);
-    }
+    [[gnu::noinline]] static SymmetricEigen<double> eigen_in_space(Matrix3<double> a) { return eigen_by_deflation(a); }
     [[gnu::noinline]] static Matrix3<Real> positive_part_in_space(Matrix3<Real> a) {
-        return spectral_function<AnalysisKind::solid>(PositivePartFunction{}, a);
+        if constexpr (is_differentiated<Real>) return spectral_function<AnalysisKind::solid>(PositivePartFunction{}, a);
+        else return spectral_function(PositivePartFunction{}, eigen_by_deflation(a));
     }
     LODE_INLINE static SymmetricEigen<double> eigen_of(const Matrix3<double>& a) {
         if constexpr (in_space) return eigen_in_space(a);

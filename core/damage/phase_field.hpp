@@ -67,9 +67,10 @@ struct PhaseField {
         if constexpr (kind == AnalysisKind::plane_stress)
             lateral_old = select(fresh, Real((-elastic.poisson / elastic.young) * trace(point.stress)),
                                  state[effective_strain::E33]);
+        Start<full(kind), Real> start;
         if constexpr (kind != AnalysisKind::plane_stress)
             if (method == Method::increments) [[unlikely]]
-                step.start = at_start<kind, Real>(strain, phase_old);
+                start = at_start<kind, Real>(strain, phase_old);
         for (int i = 0; i < components(kind); ++i) strain[i] = strain[i] + increment.strain_increment[i];
         if (!expansion.is_absent()) add_to_normals(strain, normal_components(kind), -residual);
 
@@ -83,11 +84,15 @@ struct PhaseField {
         step.grows = drive > (1.0 + growth_tolerance) * history_old;
         step.history = select(step.grows, drive, history_old);
         step.advances = Mask<Real>(false);
-        const bool staggered = method != Method::total;
-        const Real driving = staggered ? history_old : step.history;
-        if (source == Source::local && (staggered || any(step.grows))) {
+        Real driving = step.history;
+        Mask<Real> driven = step.grows;
+        if (method != Method::total) [[unlikely]] {
+            driving = history_old;
+            driven = Mask<Real>(true);
+        }
+        if (source == Source::local && any(driven)) {
             const Real root = degradation.local_phase(Real(drive_scale * driving));
-            const Mask<Real> ahead = (Mask<Real>(staggered) || step.grows) && root > phase_old;
+            const Mask<Real> ahead = driven && root > phase_old;
             phase = select(ahead, root, phase_old);
             step.advances = ahead && root < one;
             step.degraded = degradation.at(phase);
@@ -97,11 +102,8 @@ struct PhaseField {
         // Step 4.
         const auto& split = step.split;
         if (method == Method::increments) [[unlikely]] {
-            const Start<full(kind), Real>& start = step.start;
-            const Real rate = start.degraded.slope * (phase - phase_old);
-            for (int i = 0; i < components(kind); ++i)
-                point.stress[i] = point.stress[i] + start.degraded.g * (split.active[i] - start.active[i]) +
-                                  (split.passive[i] - start.passive[i]) + rate * start.active[i];
+            if constexpr (kind != AnalysisKind::plane_stress)
+                point.stress = start.advanced(point.stress, split.active, split.passive, Real(phase - phase_old));
         } else {
             for (int i = 0; i < components(kind); ++i) {
                 const int k = i < normal_components(kind) ? i : i - normal_components(kind) + 3;
@@ -117,7 +119,7 @@ struct PhaseField {
         // The local solution has none, but for rounding.
         if (source == Source::local) drives = select(step.advances, Real(0.0), select(step.grows, drives, state[SRC]));
         const Real drives_rate = -curvature * driving - resistance;
-        if constexpr (wants_tangent<T>) set_tangent(increment, step, drives, drives_rate, tangent);
+        if constexpr (wants_tangent<T>) set_tangent(increment, step, start, drives, drives_rate, tangent);
 
         effective_strain::store<kind>(state, strain, step.strain[2]);
         const Real failed = select(phase >= one, one, state[FAILED]);
@@ -162,6 +164,17 @@ struct PhaseField {
     struct Start {
         Degraded<Real> degraded;
         Stress<kind, Real> active, passive;  // sigma+, sigma-
+
+        // The stress after an increment. By value, so that the point of the caller stays in registers.
+        [[gnu::noinline, gnu::cold]] Stress<kind, Real> advanced(Stress<kind, Real> stress,
+                                                                 Stress<kind, Real> to_active,
+                                                                 Stress<kind, Real> to_passive, Real phase) const {
+            const Real rate = degraded.slope * phase;
+            for (int i = 0; i < components(kind); ++i)
+                stress[i] = stress[i] + degraded.g * (to_active[i] - active[i]) + (to_passive[i] - passive[i]) +
+                            rate * active[i];
+            return stress;
+        }
     };
     template <AnalysisKind kind, class Real>
     struct Step {
@@ -170,7 +183,6 @@ struct PhaseField {
         EnergySplit<full(kind), Real> split;
         Real history;
         Mask<Real> grows, advances;  // H; the local phase, short of 1
-        Start<full(kind), Real> start;
     };
     template <AnalysisKind kind, class Real>
     [[gnu::noinline, gnu::cold]] Start<kind, Real> at_start(Strain<kind, Real> strain, Real phase) const {
@@ -235,10 +247,11 @@ struct PhaseField {
 
     template <AnalysisKind kind>
     LODE_INLINE void set_tangent(const Increment<kind, double>& increment, const Step<kind, double>& step,
-                                 double drives, double drives_rate, Tangent<kind>& tangent) const {
+                                 const Start<full(kind), double>& start, double drives, double drives_rate,
+                                 Tangent<kind>& tangent) const {
         constexpr int n = components(kind);
         const bool sums = method == Method::increments, follows_history = method == Method::total;
-        const double g = sums ? step.start.degraded.g : step.degraded.g, slope = step.degraded.slope;
+        const double g = sums ? start.degraded.g : step.degraded.g, slope = step.degraded.slope;
         // g' d(phi)/dH of the local solution
         const double weight = step.advances && follows_history ? slope * slope / drives_rate : 0.0;
         Stress<kind, double> active;  // sigma+, as the in-plane strain feels it
@@ -268,8 +281,7 @@ struct PhaseField {
         const bool follows = increment.temperature_end() >= 0.0;
         if (follows) tangent.heat_rate_temperature = inverse * drives_rate;
         for (int i = 0; i < n; ++i) {
-            if (follows)
-                tangent.thermal_stress[i] = sums ? step.start.degraded.slope * step.start.active[i] : slope * active[i];
+            if (follows) tangent.thermal_stress[i] = sums ? start.degraded.slope * start.active[i] : slope * active[i];
             if (step.grows && follows_history) tangent.heat_rate_strain[i] = -inverse * slope * active[i];
         }
         // Through eps33 of plane stress.

@@ -4,6 +4,7 @@
 
 #include "lode/damage/softening_onset.hpp"
 #include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/tensor/eigen_deflation.hpp"
 #include "lode/tensor/invariants.hpp"
 
 namespace lode {
@@ -18,10 +19,10 @@ namespace strain_metric_detail {
 
 // Of one point, by value: the point of the caller stays in registers.
 [[gnu::noinline]] inline SymmetricEigen<double> eigen_of(Stress<AnalysisKind::solid, double> s) {
-    return symmetric_eigen<AnalysisKind::solid>(to_matrix<AnalysisKind::solid, double>(s, 1.0));
+    return eigen_by_deflation(to_matrix<AnalysisKind::solid, double>(s, 1.0));
 }
 [[gnu::noinline]] inline Vector<Batch, 3> values_of(Stress<AnalysisKind::solid, Batch> s) {
-    return symmetric_eigen<AnalysisKind::solid>(to_matrix<AnalysisKind::solid, Batch>(s, 1.0)).values;
+    return eigen_by_deflation(to_matrix<AnalysisKind::solid, Batch>(s, 1.0)).values;
 }
 
 }  // namespace strain_metric_detail

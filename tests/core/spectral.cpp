@@ -1,6 +1,8 @@
 // Eigenvalues, isotropic tensor functions and their derivatives at distinct, close and equal eigenvalues.
 #include "lode/tensor/spectral.hpp"
 
+#include "lode/tensor/eigen_deflation.hpp"
+
 #include <gtest/gtest.h>
 
 #include "support/dual.hpp"
@@ -54,6 +56,53 @@ TEST(Eigen, DecompositionReproducesTheTensor) {
         }
     }
     const auto zero = symmetric_eigen(diagonal(0, 0, 0));
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(zero.values[i], 0.0);
+}
+
+// The same without iterations, relative to the largest entry, one point and several abreast.
+TEST(Eigen, DeflationReproducesTheTensor) {
+    std::mt19937_64 random(seed);
+    constexpr std::size_t lanes = Batch::size;
+    std::array<Matrix3<double>, lanes> block;
+    std::size_t filled = 0;
+    for (const auto& [a, b, c] : spectra) {
+        for (int i = 0; i < 400; ++i) {
+            const double sign = i % 3 == 0 ? -1.0 : 1.0;
+            const Matrix3<double> m =
+                i % 10 == 0 ? diagonal(sign * a, b, c) : turned(sign * a, b, c, random_rotation(random));
+            double size = 0.0;
+            for (double x : m.m) size = std::max(size, std::abs(x));
+            const auto check = [&](const SymmetricEigen<double>& e, const Matrix3<double>& of) {
+                ASSERT_LE(orthogonality_error(e.vectors), 20.0 * eps);
+                ASSERT_LE(norm((1.0 / size) * (compose(e.values, e.vectors) - of)), 20.0 * eps);
+                const auto found = sorted(e.values);
+                std::array<Extended, 3> expected = eigen_reference(extended(of)).values;
+                std::sort(expected.begin(), expected.end());
+                for (std::size_t k = 0; k < 3; ++k)
+                    ASSERT_LE(std::abs(static_cast<double>(found[k] - expected[k])), 10.0 * eps * size);
+            };
+            ASSERT_NO_FATAL_FAILURE(check(eigen_by_deflation(m), m)) << a << " " << b << " " << c << ", " << i;
+            block[filled++] = m;
+            if (filled < lanes) continue;
+            filled = 0;
+            Matrix3<Batch> many;
+            for (std::size_t k = 0; k < 9; ++k) {
+                std::array<double, lanes> x;
+                for (std::size_t j = 0; j < lanes; ++j) x[j] = block[j].m[k];
+                many.m[k] = Batch::load_unaligned(x.data());
+            }
+            const SymmetricEigen<Batch> found = eigen_by_deflation(many);
+            for (std::size_t j = 0; j < lanes; ++j) {
+                SymmetricEigen<double> e;
+                for (int k = 0; k < 3; ++k) e.values[k] = found.values[k].get(j);
+                for (std::size_t k = 0; k < 9; ++k) e.vectors.m[k] = found.vectors.m[k].get(j);
+                size = 0.0;
+                for (double x : block[j].m) size = std::max(size, std::abs(x));
+                ASSERT_NO_FATAL_FAILURE(check(e, block[j]));
+            }
+        }
+    }
+    const auto zero = eigen_by_deflation(diagonal(0, 0, 0));
     for (int i = 0; i < 3; ++i) EXPECT_EQ(zero.values[i], 0.0);
 }
 
