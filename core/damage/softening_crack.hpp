@@ -415,7 +415,7 @@ class SofteningCrack : public LinkedSoftening {
             const SofteningDirection<Real>& dir = direction[j];
             const Softened<Real>& s = g.at[j];
             const bool same = isotropic && j == 2 && links_all_shears();
-            if (!same) released = dir.energy() * (law(j).omega(s.u) - law(j).omega(g.u_old[j]));
+            if (!same) released = dir.energy() * (law(j).omega(s) - law(j).omega(g.u_old[j]));
             const Real rest = select(g.fails[j], (0.5 * w[j] * s.f) * s.strain(dir.brittleness), Real(0.0));
             const Real change = 0.5 * (w_old[j] + w[j]) * positive_part(released) + dir.energy() * rest;
             crack.dissipated[j] = select(grows, crack.dissipated[j] + change, crack.dissipated[j]);

@@ -138,6 +138,24 @@ class SofteningLaw {
         return solve_damage(d, r, u_start, active);
     }
 
+    // The same at a point that is known.
+    template <class Real>
+    LODE_INLINE Real omega(const Softened<Real>& s) const {
+        if (code_ == linear) return 0.5 * s.u;
+        if (code_ == exponential) return 1.0 - s.f * (1.0 + 0.5 * s.u);
+        if (code_ == stretched_exponential) return stretched_omega(s.u, Real(-log(max(s.f, Real(1e-300)))), s.f);
+        return curved_omega(s.u);
+    }
+
+    // Its u alone; `u_start` near the answer.
+    template <class Real>
+    LODE_INLINE Real delta_at_damage(const Real& d, const Real& r, const Real& u_start,
+                                     const Mask<Real>& active) const {
+        if constexpr (!is_differentiated<Real>)
+            if (code_ == exponential) return solve_exponential(d, r, u_start, active);
+        return at_damage(d, r, u_start, active).u;
+    }
+
   private:
     template <class Real>
     struct Balance {
@@ -200,16 +218,22 @@ class SofteningLaw {
                                  b * exp((-a * k_) * u) * (inverse_k / a + 0.5 * u));
             }
             default: {
-                const Real z = pow(k_ * max(u, Real(1e-300)), Real(a1_)), f = exp(-z);
-                const Real integral = u * f * gamma_series(z, terms_);
-                const Mask<Real> beyond = u > Real((1.0 + 1e-14) * end_);
-                if (!any(beyond)) [[likely]]
-                    return integral - 0.5 * u * f;
-                // On the tail; in the end it is all of the area.
-                const Real tail = u * f * gamma_series(min(z, Real(far)), tail_terms_);
-                return select(beyond, select(z > Real(far), Real(1.0), tail), integral) - 0.5 * u * f;
+                const Real z = pow(k_ * max(u, Real(1e-300)), Real(a1_));
+                return stretched_omega(u, z, Real(exp(-z)));
             }
         }
+    }
+
+    // z = (k u)^a.
+    template <class Real>
+    [[gnu::noinline]] Real stretched_omega(Real u, Real z, Real f) const {
+        const Real integral = u * f * gamma_series(z, terms_);
+        const Mask<Real> beyond = u > Real((1.0 + 1e-14) * end_);
+        if (!any(beyond)) [[likely]]
+            return integral - 0.5 * u * f;
+        // On the tail; in the end it is all of the area.
+        const Real tail = u * f * gamma_series(min(z, Real(far)), tail_terms_);
+        return select(beyond, select(z > Real(far), Real(1.0), tail), integral) - 0.5 * u * f;
     }
 
     // integral of f from 0 to u over u f = 1 + z/(s + 1) (1 + z/(s + 2) (1 + ...)), s = 1/a: the power series of the
@@ -258,6 +282,21 @@ class SofteningLaw {
             default:
                 return solve_by_lambert(d, r);
         }
+    }
+    // u (1 - d) = d r e^-u is concave in u: Newton comes from below after at most one step.
+    template <class Real>
+    [[gnu::noinline]] Real solve_exponential(Real d, Real r, Real u, Mask<Real> active) const {
+        constexpr int most = 60;
+        const Real rest = max(1.0 - d, Real(1e-16)), weight = d * r;
+        Mask<Real> done = !active;
+        for (int iteration = 0; iteration < most && !all(done); ++iteration) {
+            const Real pull = weight * exp(-u);
+            const Real step = (u * rest - pull) / (rest + pull);
+            u = select(done, u, u - step);
+            // What is left is half the square of the step.
+            done = done || abs(step) <= 1e-8 * abs(u);
+        }
+        return u;
     }
     template <Code code, class Real>
     LODE_INLINE Softened<Real> solve_by_newton(const Real& d, const Real& r, const Real& u_start,

@@ -81,9 +81,16 @@ struct LinkedSoftening {
     // Laws of any shape: d and the points of the laws together by Newton's method, else one inside the other.
     template <bool with_normal, int K, class Real>
     [[gnu::noinline]] Linked<K, Real> solve_curved(Linked<K, Real> l) const {
-        Real d_end = Real(1.0);
-        for (int k = 0; k < K; ++k) d_end = min(d_end, law_of<with_normal>(k).end_damage(l.brittleness[k]));
-        const Together<K, Real> together = solve_together<with_normal>(l, NoPressure{}, Real(0.0));
+        Real d_end = Real(1.0), least = Real(0.0);
+        for (int k = 0; k < K; ++k) {
+            const SofteningLaw& softening = law_of<with_normal>(k);
+            d_end = min(d_end, softening.end_damage(l.brittleness[k]));
+            least = least + square(l.strain[k] / (l.length[k] * softening.end_strain(l.brittleness[k])));
+        }
+        // Beyond the ends of all laws there is nothing to solve.
+        Linked<K, Real> open = l;
+        open.active = l.active && least < Real(1.0);
+        const Together<K, Real> together = solve_together<with_normal>(open, NoPressure{}, Real(0.0));
         const Mask<Real> solved = together.solved && together.d < d_end;
         const Mask<Real> rest = l.active && !solved;
         l.fails = Mask<Real>(false);
@@ -111,36 +118,35 @@ struct LinkedSoftening {
     LODE_INLINE Together<K, Real> solve_together(const Linked<K, Real>& l, [[maybe_unused]] const Pressure& pressure,
                                                  [[maybe_unused]] const Real& energy) const {
         constexpr int most = 12;
-        constexpr double tolerance = 4e-15;
+        // From a residual of the first, Newton's step leads below the second, rounding. A differentiated number is
+        // iterated to the end: its derivatives are one step behind the value.
+        constexpr double near = 2e-8, tolerance = 4e-15;
         const Real one(1.0);
         Together<K, Real> s;
         s.solved = !l.active;
-        Vector<Real, K> u = l.u;
+        s.d = l.d;
+        Vector<Real, K> u = l.u, u_solved = l.u;
         Real t = l.d / max(one - l.d, Real(1e-16));
-        [[maybe_unused]] bool confirmed = !is_differentiated<Real>;
+        [[maybe_unused]] bool confirmed = false;
         for (int iteration = 0;; ++iteration) {
             const Real inverse = 1.0 / (1.0 + t), d = t * inverse;
             Vector<Real, K> r = l.brittleness, length = l.length;
             Real rise = Real(0.0);  // d ln(tau)/dt
-            ShearStrength<Real> tau{};
             if constexpr (has_pressure<Pressure>) {
-                tau = pressure.strength(d * l.strain[0]);
+                const ShearStrength<Real> tau = pressure.strength(d * l.strain[0]);
                 rise = tau.slope / tau.value * (pressure.K * l.strain[0]) * (inverse * inverse);
                 length[K - 1] = energy / tau.value;
                 r[K - 1] = tau.value / (l.modulus * length[K - 1]);
             }
-            Vector<Softened<Real>, K> at;
             Vector<Real, K> F, B, A;
-            Real S = Real(0.0), c = Real(0.0), b = Real(0.0);
-            Mask<Real> fits = Mask<Real>(true);
+            Real S = Real(0.0), c = Real(0.0), b = Real(0.0), miss = Real(0.0);
             for (int k = 0; k < K; ++k) {
-                at[k] = law_of<with_normal>(k).at(u[k]);
-                const Real strain = at[k].strain(r[k]), inverse_strain = 1.0 / strain,
-                           stretch = 1.0 + r[k] * at[k].slope;
+                const Softened<Real> at = law_of<with_normal>(k).at(u[k]);
+                const Real strain = at.strain(r[k]), inverse_strain = 1.0 / strain, stretch = 1.0 + r[k] * at.slope;
                 const Real w = square(l.strain[k] / length[k] * inverse_strain), drop = w * stretch * inverse_strain;
-                F[k] = u[k] - t * r[k] * at[k].f;
-                B[k] = r[k] * at[k].f;
-                A[k] = 1.0 / (1.0 - t * r[k] * at[k].slope);
+                F[k] = u[k] - t * r[k] * at.f;
+                B[k] = r[k] * at.f;
+                A[k] = 1.0 / (1.0 - t * r[k] * at.slope);
                 S = S + w;
                 if (has_pressure<Pressure> && k == K - 1) {
                     c = c + w * rise * (2.0 * B[k] * inverse_strain - 1.0);
@@ -148,33 +154,32 @@ struct LinkedSoftening {
                 }
                 c = c + drop * B[k] * A[k];
                 b = b + drop * F[k] * A[k];
-                fits = fits && abs(F[k]) <= Real(tolerance * u[k]);
+                miss = max(miss, Real(abs(F[k]) - (is_differentiated<Real> ? tolerance : near) * u[k]));
             }
             const Real root = sqrt(S);
-            Mask<Real> done = l.active && fits && abs(root - 1.0) <= Real(tolerance);
+            Mask<Real> done =
+                l.active && miss <= Real(0.0) && abs(root - 1.0) <= Real(is_differentiated<Real> ? tolerance : near);
             if constexpr (is_differentiated<Real>)
                 if (done && !confirmed) {
-                    confirmed = true;  // derivatives are one step behind the value
+                    confirmed = true;
                     done = false;
                 }
-            const Mask<Real> fresh = done && !s.solved;
-            const bool first = iteration == 0;
-            for (int k = 0; k < K; ++k) s.at[k] = first ? at[k] : choose(fresh, at[k], s.at[k]);
-            s.d = first ? d : select(fresh, d, s.d);
-            s.tau.value = first ? tau.value : select(fresh, tau.value, s.tau.value);
-            s.tau.slope = first ? tau.slope : select(fresh, tau.slope, s.tau.slope);
-            s.solved = s.solved || done;
-            if (all(s.solved) || iteration == most) {
-                s.solved = s.solved && l.active;
-                return s;
-            }
             const Real change = (b + S * (root - 1.0)) / c;
             const Real t_next = t + change;
             t = max(t_next, Real(0.5 * t));
             for (int k = 0; k < K; ++k)
                 u[k] = min(max(Real(u[k] + (B[k] * change - F[k]) * A[k]), Real(0.5 * u[k])),
                            Real(far_end(law_of<with_normal>(k))));
+            const Mask<Real> fresh = done && !s.solved;
+            s.d = select(fresh, t / (1.0 + t), s.d);
+            for (int k = 0; k < K; ++k) u_solved[k] = select(fresh, u[k], u_solved[k]);
+            s.solved = s.solved || done;
+            if (all(s.solved) || iteration == most) break;
         }
+        for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).at(u_solved[k]);
+        if constexpr (has_pressure<Pressure>) s.tau = pressure.strength(s.d * l.strain[0]);
+        s.solved = s.solved && l.active;
+        return s;
     }
     // Where a law that has no end has fallen below rounding.
     static double far_end(const SofteningLaw& softening) {
@@ -222,6 +227,11 @@ struct LinkedSoftening {
         l.fails = l.active && sum >= Real(1.0);
 
         const Mask<Real> inside = l.active && !l.fails;
+        if (!any(inside)) {
+            l.d = d_end;
+            l.at = end.at;
+            return l;
+        }
         const auto root = solve_bracketed<Slope::decreasing>([&](const Real& d) { return evaluate(d, inside); }, l.d,
                                                              max(d_end, l.d), l.d, Real(2e-15), inside);
         l.d = select(l.fails, d_end, root.x);
@@ -252,8 +262,7 @@ struct LinkedSoftening {
         // Of the shear law at the old damage, with another strength.
         const auto old_point = [&](const Real& tau, const Real& guess) {
             s.set_strength(tau, energy);
-            const Softened<Real> point = shear_law.at_damage(d_old, s.brittleness, guess, damaged);
-            return select(damaged, point.u, Real(0.0));
+            return select(damaged, shear_law.delta_at_damage(d_old, s.brittleness, guess, damaged), Real(0.0));
         };
         UnderPressure<Real> step;
         const Real start = old_point(pressure.strength(d_old * q).value, shear_old);
