@@ -256,6 +256,9 @@ class SofteningLaw {
     // towards which the laws are convex.
     template <class Real>
     [[gnu::noinline]] Softened<Real> solve_strain(Real x, Real r, Real u_old, Mask<Real> active) const {
+        if constexpr (!is_differentiated<Real>)
+            if (code_ == exponential && all(!active || r < Real(0.9)))
+                return solve_exponential_strain(x, r, u_old, active);
         const Real lower = min(u_old, Real(end_)), upper = max(lower, min(x, Real(end_)));
         const Mask<Real> small = upper - lower < 2.0 * r;
         const Real start = select(active, select(small, lower, upper), lower);
@@ -276,11 +279,34 @@ class SofteningLaw {
             case cubic:
                 return solve_cubic(d, r, u_start, active);
             case exponential:
-                return solve_by_newton<exponential>(d, r, u_start, active);
+                if constexpr (is_differentiated<Real>) {
+                    return solve_by_newton<exponential>(d, r, u_start, active);
+                } else {
+                    const Real u = solve_exponential(d, r, u_start, active), f = exp(-u);
+                    return {u, f, -f};
+                }
             case double_exponential:
                 return solve_by_newton<double_exponential>(d, r, u_start, active);
             default:
                 return solve_by_lambert(d, r);
+        }
+    }
+    // u + r e^-u = x is convex in u and, away from snap-back, rises: Newton comes from above after at most one step.
+    template <class Real>
+    LODE_INLINE Softened<Real> solve_exponential_strain(const Real& x, const Real& r, Real u,
+                                                        const Mask<Real>& active) const {
+        constexpr int most = 60;
+        u = select(active, u, Real(0.0));
+        Real f = u;
+        Mask<Real> done = Mask<Real>(false);
+        for (int iteration = 0;; ++iteration) {
+            const Real at = exp(-u), step = (u + r * at - x) / (1.0 - r * at);
+            const Mask<Real> last = !done && (!active || abs(step) <= 1e-8);
+            // What is left is a few squares of the step.
+            f = select(last, at * (1.0 + step * (1.0 + 0.5 * step)), f);
+            u = select(done || !active, u, u - step);
+            done = done || last;
+            if (all(done) || iteration == most) return {u, f, -f};
         }
     }
     // u (1 - d) = d r e^-u is concave in u: Newton comes from below after at most one step.
