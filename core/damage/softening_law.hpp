@@ -115,6 +115,14 @@ class SofteningLaw {
         return curved(u);
     }
 
+    // A point at u, from one that is so near that the third power of the distance is rounding.
+    template <class Real>
+    LODE_INLINE Softened<Real> moved(const Softened<Real>& s, const Real& u) const {
+        if (code_ != exponential) return at(u);
+        const Real step = s.u - u, f = s.f * (1.0 + step * (1.0 + 0.5 * step));
+        return {u, f, -f};
+    }
+
     // omega(u) = integral of f - u f/2.
     template <class Real>
     LODE_INLINE Real omega(const Real& u) const {

@@ -138,10 +138,12 @@ struct LinkedSoftening {
                 length[K - 1] = energy / tau.value;
                 r[K - 1] = tau.value / (l.modulus * length[K - 1]);
             }
+            Vector<Softened<Real>, K> point;
             Vector<Real, K> F, B, A;
             Real S = Real(0.0), c = Real(0.0), b = Real(0.0), miss = Real(0.0);
             for (int k = 0; k < K; ++k) {
-                const Softened<Real> at = law_of<with_normal>(k).at(u[k]);
+                point[k] = law_of<with_normal>(k).at(u[k]);
+                const Softened<Real>& at = point[k];
                 const Real strain = at.strain(r[k]), inverse_strain = 1.0 / strain, stretch = 1.0 + r[k] * at.slope;
                 const Real w = square(l.strain[k] / length[k] * inverse_strain), drop = w * stretch * inverse_strain;
                 F[k] = u[k] - t * r[k] * at.f;
@@ -172,11 +174,16 @@ struct LinkedSoftening {
                            Real(far_end(law_of<with_normal>(k))));
             const Mask<Real> fresh = done && !s.solved;
             s.d = select(fresh, t / (1.0 + t), s.d);
-            for (int k = 0; k < K; ++k) u_solved[k] = select(fresh, u[k], u_solved[k]);
+            for (int k = 0; k < K; ++k) {
+                u_solved[k] = select(fresh, u[k], u_solved[k]);
+                s.at[k] = iteration == 0 ? point[k] : choose(fresh, point[k], s.at[k]);
+            }
             s.solved = s.solved || done;
             if (all(s.solved) || iteration == most) break;
         }
-        for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).at(u_solved[k]);
+        for (int k = 0; k < K; ++k)
+            s.at[k] = is_differentiated<Real> ? law_of<with_normal>(k).at(u_solved[k])
+                                              : law_of<with_normal>(k).moved(s.at[k], u_solved[k]);
         if constexpr (has_pressure<Pressure>) s.tau = pressure.strength(s.d * l.strain[0]);
         s.solved = s.solved && l.active;
         return s;
@@ -266,7 +273,9 @@ struct LinkedSoftening {
         };
         UnderPressure<Real> step;
         const Real start = old_point(pressure.strength(d_old * q).value, shear_old);
-        const Real strain = s.length * shear_law.at(start).strain(s.brittleness);
+        const Real r_start = s.brittleness;
+        // e = delta/d
+        const Real strain = s.length * select(damaged, start / select(damaged, d_old, Real(1.0)), r_start);
         step.grows =
             enabled && square(q / e_old) + square(shear / strain) > Real(1.0 + 2.0 * softening_growth_tolerance);
 
@@ -279,8 +288,13 @@ struct LinkedSoftening {
         l.d = d_old;
         l.active = step.grows;
         const Together<2, Real> together = solve_together<true>(l, pressure, energy);
-        s.set_strength(pressure.strength(q).value, energy);
-        const Real d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(s.brittleness));
+        // The end of the laws: that of the strongest shear is a lower bound.
+        Real d_end = min(normal_law.end_damage(n.brittleness),
+                         shear_law.end_damage(Real(square(pressure.largest_strength) / (s.modulus * energy))));
+        if (any(step.grows && !(together.solved && together.d < d_end))) {
+            s.set_strength(pressure.strength(q).value, energy);
+            d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(s.brittleness));
+        }
         const Mask<Real> solved = together.solved && together.d < d_end, rest = step.grows && !solved;
         step.fails = Mask<Real>(false);
         step.d = select(solved, together.d, d_old);
@@ -289,7 +303,10 @@ struct LinkedSoftening {
         step.shear = together.at[1];
         if (any(rest)) [[unlikely]]
             search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step);
-        step.u_old = old_point(step.tau.value, start);
+        // Near the answer: Newton's step of the exponential law, whose value at the start is known.
+        s.set_strength(step.tau.value, energy);
+        const Real ratio = s.brittleness / r_start;
+        step.u_old = old_point(step.tau.value, start * ratio * (1.0 + start) / (1.0 + start * ratio));
         return step;
     }
 
