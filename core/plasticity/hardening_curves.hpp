@@ -27,24 +27,32 @@ LODE_INLINE Real mean_power(const Real& z, double n, const Real& power) {
     return select(is_short, series, (power * (1.0 + length) - 1.0) / ((n + 1.0) * length));
 }
 
-// z - 1 + exp(-z), by its series up to `limit`.
+// z - 1 + exp(-z).
 struct DecayRemainder {
-    static constexpr double limit = 0.5;
+    // Up to z = 1/16.
     template <class Real>
-    LODE_INLINE static Real series(const Real& z) {
-        const Real z2 = z * z, z4 = z2 * z2, z8 = z4 * z4;
-        const Real p0 = 1.0 / 2 - z * (1.0 / 6), p1 = 1.0 / 24 - z * (1.0 / 120);
-        const Real p2 = 1.0 / 720 - z * (1.0 / 5040), p3 = 1.0 / 40320 - z * (1.0 / 362880);
-        const Real p4 = 1.0 / 3628800 - z * (1.0 / 39916800), p5 = 1.0 / 479001600 - z * (1.0 / 6227020800);
-        const double p6 = 1.0 / 87178291200;
-        return z2 * ((p0 + z2 * p1) + (z4 * (p2 + z2 * p3) + z8 * (p4 + z2 * p5 + z4 * p6)));
+    LODE_INLINE static Real short_series(const Real& z) {
+        const Real z2 = z * z;
+        return z2 * first_terms(z, z2, z2 * z2);
     }
     template <class Real>
     LODE_INLINE static Real of(const Real& z) {
-        const auto is_short = abs(z) < Real(limit);
+        const auto is_short = abs(z) < Real(0.5);
+        const Real z2 = z * z, z4 = z2 * z2;
+        const Real p4 = 1.0 / 3628800 - z * (1.0 / 39916800), p5 = 1.0 / 479001600 - z * (1.0 / 6227020800);
+        const double p6 = 1.0 / 87178291200;
+        const Real series = z2 * (first_terms(z, z2, z4) + (z4 * z4) * (p4 + z2 * p5 + z4 * p6));
         if (all(is_short)) [[likely]]
-            return series(z);
-        return select(is_short, series(z), z + quick_expm1(-z));
+            return series;
+        return select(is_short, series, z + quick_expm1(-z));
+    }
+
+  private:
+    template <class Real>
+    LODE_INLINE static Real first_terms(const Real& z, const Real& z2, const Real& z4) {
+        const Real p0 = 1.0 / 2 - z * (1.0 / 6), p1 = 1.0 / 24 - z * (1.0 / 120);
+        const Real p2 = 1.0 / 720 - z * (1.0 / 5040), p3 = 1.0 / 40320 - z * (1.0 / 362880);
+        return (p0 + z2 * p1) + z4 * (p2 + z2 * p3);
     }
 };
 
@@ -168,14 +176,21 @@ struct SaturationHardening {
         }
         return k;
     }
-    // With u = Q exp(-b x): k = k(x) + u (1 - exp(-z)) + H dx, z = b dx, whose integral needs z - 1 + exp(-z).
+    // The mean of both ends with Euler and Maclaurin's corrections, of which each is z^2, z = b dx, times the one
+    // before. Where z is not small: with u = Q exp(-b x), k = k(x) + u (1 - exp(-z)) + H dx.
     template <class Real>
     LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const FlowStress<Real>& k,
-                                   const FlowStress<Real>&) const {
+                                   const FlowStress<Real>& k_end) const {
         if (straight_from < HUGE_VAL) return stored_energy(x + dx) - stored_energy(x);
+        const Real z = rate * dx, z2 = z * z;
+        const Real corrections = 1.0 / 12 - z2 * (1.0 / 720 - z2 * (1.0 / 30240));
+        const Real near = dx * ((0.5 * (k.value + k_end.value) - yield) + dx * ((k.slope - k_end.slope) * corrections));
+        const auto is_near = z < Real(1.0 / 16);
+        if (all(is_near)) [[likely]]
+            return near;
         const Real u_over_rate = (k.slope - modulus) * (inverse_rate * inverse_rate);
-        return dx * (k.value - yield + 0.5 * modulus * dx) +
-               u_over_rate * hardening_detail::DecayRemainder::of(rate * dx);
+        const Real remainder = u_over_rate * hardening_detail::DecayRemainder::of(z);
+        return select(is_near, near, dx * (k.value - yield + 0.5 * modulus * dx) + remainder);
     }
     double falls_to(double floor) const {
         double upper = 1.0 / rate;
@@ -194,7 +209,7 @@ struct SaturationHardening {
   private:
     // From 0 to x.
     template <class Real>
-    Real stored_energy(const Real& x) const {
+    Real stored_energy(Real x) const {
         const Real bent = min(x, Real(straight_from)), beyond = x - bent;
         const Real decayed = quick_expm1(-rate * bent);
         return range * bent + inverse_rate * range * decayed + 0.5 * modulus * (bent * bent) +

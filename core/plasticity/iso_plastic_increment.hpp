@@ -113,8 +113,7 @@ class IncrementRules {
         if constexpr (wants_tangent<T>) {
             c.thermal.set_heat_rate(tangent, increment, heat + thermoelastic);
             if constexpr (!Law::feels_temperature)
-                if (c.thermal_expansion != 0.0)
-                    set_thermal_strain_tangent(tangent, [this](int) { return c.thermal_expansion; });
+                if (c.thermal_expansion != 0.0) set_thermal_strain_by(tangent);
             if (c.thermal.is_thermoelastic() && !c.thermal.heats_itself())
                 set_thermoelastic_tangent(increment, step.surroundings.temperature, volume_strain, tangent);
         }
@@ -303,6 +302,15 @@ class IncrementRules {
         else
             return 3.0 * free_strain(increment, point.state) +
                    (trace(point.stress) - trace_start) * (1.0 / (3.0 * c.elastic.bulk));
+    }
+
+    // DDSDDT and DRPLDT of the thermal strain. The deviator and its heat do not feel one that is equal in all
+    // directions.
+    template <AnalysisKind kind>
+    LODE_INLINE void set_thermal_strain_by(Tangent<kind>& tangent) const {
+        if constexpr (normal_components(kind) == 3)
+            for (int i = 0; i < 3; ++i) tangent.thermal_stress[i] = -3.0 * c.elastic.bulk * c.thermal_expansion;
+        else set_thermal_strain_tangent(tangent, [this](int) { return c.thermal_expansion; });
     }
 
     // What H_is adds.
