@@ -1,0 +1,78 @@
+// Exponential and logarithm of the kernels against the standard library's in long double, for a single number and for a
+// batch.
+#include "lode/numerics/functions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+using namespace lode;
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// f of x as a double and as every lane of a batch.
+template <class F>
+std::array<double, 2> both(const F& f, double x) {
+    const Batch result = f(Batch(x));
+    for (std::size_t lane = 0; lane < Batch::size; ++lane) EXPECT_EQ(result.get(lane), result.get(0)) << x;
+    return {f(x), result.get(0)};
+}
+
+template <class F, class Exact>
+void expect_close(const F& f, const Exact& exact, double x, double tolerance = 2.0 * epsilon) {
+    const auto reference = static_cast<double>(exact(static_cast<long double>(x)));
+    for (const double result : both(f, x)) EXPECT_NEAR(result, reference, tolerance * std::abs(reference)) << x;
+}
+
+const auto exponential = [](const auto& x) { return quick_exp(x); };
+const auto exponential_less_1 = [](const auto& x) { return quick_expm1(x); };
+const auto logarithm = [](const auto& x) { return quick_log(x); };
+
+}  // namespace
+
+TEST(Functions, Exponential) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int i = 0; i < 20000; ++i) {
+        const double x = uniform(random) * std::pow(10.0, i % 6 - 3.0);
+        const double inside = std::max(-700.0, std::min(700.0, x));
+        expect_close(
+            exponential, [](long double y) { return std::exp(y); }, inside);
+        expect_close(
+            exponential_less_1, [](long double y) { return std::expm1(y); }, inside);
+    }
+    expect_close(
+        exponential, [](long double) { return 1.0L; }, 0.0);
+    expect_close(
+        exponential_less_1, [](long double) { return 0.0L; }, 0.0);
+    for (const double x : {-1e4, 1e4})
+        for (const double result : both(exponential, x)) EXPECT_TRUE(result > 0.0 && std::isfinite(result));
+    EXPECT_TRUE(std::isnan(quick_exp(std::nan(""))));
+    EXPECT_TRUE(std::isnan(quick_exp(Batch(std::nan(""))).get(0)));
+}
+
+TEST(Functions, Logarithm) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> magnitude(-300.0, 300.0), near_1(-0.5, 0.5);
+    for (int i = 0; i < 20000; ++i) {
+        const double x = i % 2 == 0 ? std::pow(10.0, magnitude(random)) : 1.0 + near_1(random);
+        expect_close(
+            logarithm, [](long double y) { return std::log(y); }, x);
+        for (const double estimate : both([](const auto& y) { return estimated_log(y); }, x))
+            EXPECT_NEAR(estimate, std::log(x), 0.03) << x;
+    }
+    for (const double result : both(logarithm, 1.0)) EXPECT_EQ(result, 0.0);
+}
+
+TEST(Functions, Power) {
+    for (const double x : {0.0, 1e-12, 0.3, 1.0, 40.0})
+        for (const double n : {0.26, 0.5, 1.03, 3.0})
+            // The error of the logarithm grows with the exponent.
+            for (const double result : both([n](const auto& y) { return quick_pow(y, n); }, x))
+                EXPECT_NEAR(result, std::pow(x, n),
+                            2.0 * epsilon * (1.0 + std::abs(n * std::log(std::max(x, 1e-12)))) * std::pow(x, n));
+}
