@@ -333,7 +333,7 @@ struct DruckerPrager {
     template <class... Laws>
     using AnyKernel = std::variant<drucker_prager::Kernel<Laws>...>;
     using Kernel = AnyKernel<LinearHardening, SaturationHardening, NonlinearHardening, PowerHardening, LinearSoftening,
-                             Floored<SaturationHardening>, Floored<NonlinearHardening>, Floored<PowerHardening>>;
+                             Floored<FallingCurve>>;
 
     explicit DruckerPrager(const Properties& p)
         : kernel(make_kernel(p)), state_count(std::max(4, thermal_block(p).required_state())) {}
@@ -383,8 +383,10 @@ struct DruckerPrager {
                           .thermal = thermal_block(p),
                           .substeps = p.code(METHOD) == 2 ? p.code(NSUB) : 1,
                           .reference_length = p[LREF]};
-        return hardening.visit<DruckerPrager::Kernel>(
-            [&](const auto& law) -> DruckerPrager::Kernel { return drucker_prager::Kernel(c, law); });
+        return hardening.visit<DruckerPrager::Kernel>([&](const auto& law) -> DruckerPrager::Kernel {
+            if constexpr (requires { any_falling(law); }) return drucker_prager::Kernel(c, any_falling(law));
+            else return drucker_prager::Kernel(c, law);
+        });
     }
 
     Kernel kernel;

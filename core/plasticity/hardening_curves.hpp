@@ -3,6 +3,8 @@
 // integral of k - Y.
 #pragma once
 
+#include <variant>
+
 #include "lode/numerics/functions.hpp"
 
 namespace lode {
@@ -138,7 +140,12 @@ struct PowerHardening {
     template <class Real>
     LODE_INLINE Real stored_energy(const Real& x, const Real& dx, const FlowStress<Real>& k,
                                    const FlowStress<Real>& k_end) const {
-        const Real rise = k.value - yield, rise_end = k_end.value - yield;
+        return integral(exponent, x, dx, k.value - yield, k_end.value - yield);
+    }
+    // Of what rises with x^n from `rise` to `rise_end`.
+    template <class Real>
+    LODE_INLINE static Real integral(double exponent, const Real& x, const Real& dx, const Real& rise,
+                                     const Real& rise_end) {
         const Real whole = (rise_end * (x + dx) - rise * x) * (1.0 / (exponent + 1.0));
         const auto is_short = dx < 1e-3 * x;
         if (!any(is_short)) return whole;
@@ -217,6 +224,34 @@ struct SaturationHardening {
     }
 };
 
+// One of several curves, chosen at run time: those whose powers cost more than a call share the code around them.
+template <class... Curves>
+class AnyCurve {
+  public:
+    static constexpr bool softens = false;
+
+    template <class Curve>
+    explicit AnyCurve(const Curve& curve) : yield(curve.yield), curve_(curve) {}
+
+    double initial_yield() const { return yield; }
+    // Everything by value: a reference would keep the point in memory.
+    template <class Real>
+    [[gnu::noinline]] FlowStress<Real> flow_stress(Real x) const {
+        return std::visit([&](const auto& curve) { return curve.flow_stress(x); }, curve_);
+    }
+    template <class Real>
+    [[gnu::noinline]] Real stored_energy(Real x, Real dx, FlowStress<Real> k, FlowStress<Real> k_end) const {
+        return std::visit([&](const auto& curve) { return curve.stored_energy(x, dx, k, k_end); }, curve_);
+    }
+
+    double yield;
+
+  private:
+    std::variant<Curves...> curve_;
+};
+using PowerLaw = AnyCurve<NonlinearHardening, PowerHardening>;
+using FallingCurve = AnyCurve<NonlinearHardening, PowerHardening, SaturationHardening>;
+
 // A curve that falls, cut off at `floor`.
 template <class Curve>
 struct Floored {
@@ -244,5 +279,11 @@ struct Floored {
         return min(law.flow_stress(0.0).slope, law.flow_stress(min(floor_at, 1e300)).slope);
     }
 };
+
+// The same curve with its floor, its kind left to run time.
+template <class Curve>
+Floored<FallingCurve> any_falling(const Floored<Curve>& curve) {
+    return {FallingCurve(curve.law), curve.floor, curve.floor_at};
+}
 
 }  // namespace lode

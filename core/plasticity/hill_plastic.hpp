@@ -337,8 +337,7 @@ struct HillPlastic {
     LODE_INLINE void specialise(const F& f) const {
         if (const auto* linear = std::get_if<0>(&kernel)) return f(*linear);
         if (const auto* saturation = std::get_if<1>(&kernel)) return f(*saturation);
-        if (const auto* nonlinear = std::get_if<2>(&kernel)) return f(*nonlinear);
-        f(*std::get_if<3>(&kernel));
+        f(*std::get_if<2>(&kernel));
     }
 
     template <AnalysisKind kind, class Real, class T>
@@ -349,7 +348,7 @@ struct HillPlastic {
   private:
     template <class... Laws>
     using AnyKernel = std::variant<hill_plastic::Kernel<Laws>...>;
-    using Kernel = AnyKernel<LinearHardening, SaturationHardening, NonlinearHardening, PowerHardening>;
+    using Kernel = AnyKernel<LinearHardening, SaturationHardening, PowerLaw>;
 
     static Kernel make_kernel(const Properties& p) {
         using namespace hill_plastic;
@@ -386,7 +385,9 @@ struct HillPlastic {
         return hardening.visit<HillPlastic::Kernel>([&](const auto& law) -> HillPlastic::Kernel {
             using Law = std::decay_t<decltype(law)>;
             if constexpr (Law::softens) p.refuse(HLAW, "a law that hardens");
-            else return hill_plastic::Kernel<Law>(c, law);
+            else if constexpr (std::is_constructible_v<Kernel, hill_plastic::Kernel<Law>>)
+                return hill_plastic::Kernel<Law>(c, law);
+            else return hill_plastic::Kernel<PowerLaw>(c, PowerLaw(law));
         });
     }
 

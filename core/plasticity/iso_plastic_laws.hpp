@@ -73,30 +73,6 @@ class CurveLaw {
     ReturnToYield<Curve> radial_, axial_;
 };
 
-// A curve that falls, chosen at run time: softening laws other than the straight one share their code.
-class FallingCurve {
-  public:
-    using Variant = std::variant<NonlinearHardening, PowerHardening, SaturationHardening>;
-
-    template <class Curve>
-    explicit FallingCurve(const Curve& curve) : yield(curve.yield), curve_(curve) {}
-
-    double initial_yield() const { return yield; }
-    template <class Real>
-    FlowStress<Real> flow_stress(const Real& x) const {
-        return std::visit([&](const auto& curve) { return curve.flow_stress(x); }, curve_);
-    }
-    template <class Real>
-    Real stored_energy(const Real& x, const Real& dx, const FlowStress<Real>& k, const FlowStress<Real>& k_end) const {
-        return std::visit([&](const auto& curve) { return curve.stored_energy(x, dx, k, k_end); }, curve_);
-    }
-
-    double yield;
-
-  private:
-    Variant curve_;
-};
-
 // A law whose functions stay out of the kernels: one copy serves all kinds. For the laws that are not the daily bread.
 template <class Law>
 class Apart {
@@ -182,8 +158,7 @@ LawVariant law_of(const Curve& curve, const IsotropicModuli& elastic) {
                       curve.floor_at;
                       curve.law;
                   }) {
-        const Floored<FallingCurve> falling{FallingCurve(curve.law), curve.floor, curve.floor_at};
-        return Apart(CurveLaw<Floored<FallingCurve>>(falling, elastic));
+        return Apart(CurveLaw<Floored<FallingCurve>>(any_falling(curve), elastic));
     } else if constexpr (std::is_constructible_v<LawVariant, CurveLaw<Curve>>) {
         return CurveLaw<Curve>(curve, elastic);
     } else {
