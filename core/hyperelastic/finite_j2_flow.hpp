@@ -30,7 +30,7 @@ struct JohnsonCookFlow {
         LODE_INLINE ReturnResult<Real> solve(const Real& q, const Real& stiffness, const Real& alpha,
                                              const FlowStress<Real>& k, const Mask<Real>& where) const {
             auto end = now;  // what the law notes there is not needed
-            return law.solve_along(stiffness, end, q, alpha, k, where);
+            return law.solve_along(stiffness, Real(1.0 / stiffness), end, q, alpha, k, where);
         }
         // dK/dtemperature at fixed dalpha.
         LODE_INLINE Real temperature_slope(const Real& alpha, const Real& dalpha, const Real& K) const {
@@ -45,9 +45,7 @@ struct JohnsonCookFlow {
         s.temperature = temperature;
         s.time = increment.time_increment;
         Mask<Real> frozen(false);
-        if (s.time.value > 0.0) {
-            s.log_rate = std::log(s.time.inverse);
-        } else {
+        if (s.time.value <= 0.0) {
             Real strain = abs(increment.strain_increment[0]);
             for (int i = 1; i < components(kind); ++i) strain = strain + abs(increment.strain_increment[i]);
             frozen = !(strain > Real(0.0));

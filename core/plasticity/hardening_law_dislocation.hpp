@@ -53,7 +53,8 @@ class DislocationHardening {
 
     template <class Real>
     LODE_INLINE At<Real> at(const Surroundings<Real>& s) const {
-        At<Real> at{s.densities, Real(inverse_m_), Real(inverse_n_), s.time, s.log_rate + log_scale_};
+        At<Real> at{s.densities, Real(inverse_m_), Real(inverse_n_), s.time, log_scale_};
+        if (s.time.value > 0.0) at.log_rate_scale = log_scale_ - quick_log(s.time.value);
         if (depends_on_temperature()) {
             const Real T = s.temperature + absolute_zero_offset_;
             at.inverse_m = inverse_Am_ * T;

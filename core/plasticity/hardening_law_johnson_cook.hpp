@@ -15,13 +15,14 @@ class JohnsonCook {
 
     template <class Real>
     struct At {
-        Real thermal, star;  // T, T*
+        // No flag comes last: GCC would copy the struct byte by byte, and keep it in memory.
         Mask<Real> melted;
-        double log_rate_scale;  // ln(rate/EPS0) = ln(dalpha) + this
-        double slowest;         // dalpha at r = RMIN; infinite where nothing depends on the rate
-        // Left by `solve`: R at the end and its derivative by ln(dalpha).
-        Real end_ratio, end_ratio_slope;
-        bool solved = false;
+        bool solved;
+        Real thermal, star, star_power;  // T, T*, T*^m
+        double rate_scale;               // rate/EPS0 of dalpha = 1
+        double slowest;                  // dalpha at r = RMIN; infinite where nothing depends on the rate
+        // Left by `solve`: R at the end and its derivative by dalpha over R; (Y + B alpha^n) T there.
+        Real end_ratio, end_ratio_change, end_hardening;
     };
 
     // `h` is the index of H1.
@@ -35,7 +36,8 @@ class JohnsonCook {
           reference_temperature_(reference_temperature),
           fast_factor_(p[h + 6]),
           fast_exponent_(p[h + 7] != 0.0 ? p[h + 7] : 1.0),
-          stiffness_{radial, axial} {
+          stiffness_{radial, axial},
+          inverse_stiffness_{1.0 / radial, 1.0 / axial} {
         if (rise_ < 0.0) p.refuse(h, ">= 0");
         if (exponent_ <= 0.0) p.refuse(h + 1, "> 0");
         if (rate_factor_ < 0.0) p.refuse(h + 2, ">= 0");
@@ -57,20 +59,36 @@ class JohnsonCook {
         slowest_rate_ = slowest * rate_;
         ignores_rate_ = rate_factor_ == 0.0 && fast_factor_ == 0.0;
         slow_ratio_ = 1.0 + rate_factor_ * log_slowest_;
-        log_rate_ = std::log(rate_);
+        inverse_slow_ratio_ = 1.0 / slow_ratio_;
+        inverse_rate_ = ignores_rate_ ? 0.0 : 1.0 / rate_;
+        double binomial = 1.0;
+        for (int i = 0; i < 4; ++i) {
+            binomial *= (exponent_ - i) / (i + 1.0);
+            binomial_[i] = binomial;
+        }
     }
 
     template <class Real>
     LODE_INLINE At<Real> at(const Surroundings<Real>& s) const {
-        At<Real> at{Real(1.0), Real(0.0), Mask<Real>(false), 0.0, HUGE_VAL, Real(slow_ratio_), Real(0.0)};
+        At<Real> at{.melted = Mask<Real>(false),
+                    .solved = false,
+                    .thermal = Real(1.0),
+                    .star = Real(0.0),
+                    .star_power = Real(0.0),
+                    .rate_scale = 0.0,
+                    .slowest = HUGE_VAL,
+                    .end_ratio = Real(slow_ratio_),
+                    .end_ratio_change = Real(0.0),
+                    .end_hardening = Real(0.0)};
         if (per_range_ != 0.0) {
             at.star = (s.temperature - reference_temperature_) * per_range_;
             at.melted = at.star >= Real(1.0);
             const Real inside = min(max(at.star, Real(0.0)), Real(1.0));
-            at.thermal = 1.0 - (thermal_exponent_ == 1.0 ? inside : quick_pow(inside, thermal_exponent_));
+            at.star_power = thermal_exponent_ == 1.0 ? inside : quick_pow(inside, thermal_exponent_);
+            at.thermal = 1.0 - at.star_power;
         }
         if (!ignores_rate_ && s.time.value > 0.0) {
-            at.log_rate_scale = s.log_rate - log_rate_;
+            at.rate_scale = min(s.time.inverse * inverse_rate_, 1e280);
             at.slowest = slowest_rate_ * s.time.value;
         }
         return at;
@@ -86,38 +104,40 @@ class JohnsonCook {
     // K after dalpha = x.
     template <class Real>
     LODE_INLINE FlowStress<Real> flow(const At<Real>& at, const Real& alpha, const Real& x) const {
-        return flow(at, alpha, x, quick_log(max(x, Real(1e-300))));
+        const FlowStress<Real> h = strain_hardening(alpha + x);
+        const Ratio<Real> r = ratio(at, log_rate(at, x));
+        const Real per_x = 1.0 / max(x, Real(1e-300));
+        const Real r1 = r.slope * per_x, r2 = (r.bend - r.slope) * (per_x * per_x);
+        return {at.thermal * (h.value * r.value), at.thermal * (h.slope * r.value + h.value * r1),
+                at.thermal * (h.curvature * r.value + 2.0 * h.slope * r1 + h.value * r2)};
     }
 
     template <Line line, class Real>
     LODE_INLINE ReturnResult<Real> solve(At<Real>& at, const Real& q_trial, const Real& alpha,
                                          const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_along(stiffness_[line], at, q_trial, alpha, k, yields);
+        return solve_along(stiffness_[line], inverse_stiffness_[line], at, q_trial, alpha, k, yields);
     }
     // The same on a line of any stiffness S.
     template <class Real, class Number>
-    LODE_INLINE ReturnResult<Real> solve_along(const Number& S, At<Real>& at, const Real& q_trial, const Real& alpha,
-                                               const FlowStress<Real>& k, const Mask<Real>& yields) const {
+    LODE_INLINE ReturnResult<Real> solve_along(const Number& S, const Number& inverse_S, At<Real>& at,
+                                               const Real& q_trial, const Real& alpha, const FlowStress<Real>& k,
+                                               const Mask<Real>& yields) const {
         at.solved = true;
-        const Real upper = select(yields, (q_trial - k.value) * (1.0 / S), Real(1.0));
-        if constexpr (!is_differentiated<Real>) {
-            if (at.slowest < HUGE_VAL) {
-                const Quick<Real> quick = solve_quickly(S, at, q_trial, alpha, k, upper);
-                const Mask<Real> left = yields && !quick.solved;
-                at.end_ratio = select(yields, quick.ratio, at.end_ratio);
-                at.end_ratio_slope = select(yields, quick.ratio_slope, at.end_ratio_slope);
-                if (!any(left)) [[likely]]
-                    return quick.result;
-                const Slow<Real> other = solve_slowly(*this, S, at, q_trial, alpha, k, upper, left);
-                at.end_ratio = select(left, other.ratio, at.end_ratio);
-                at.end_ratio_slope = select(left, other.ratio_slope, at.end_ratio_slope);
-                return either(left, other.result, quick.result);
-            }
+        at.end_hardening = inverse_slow_ratio_ * k.value;
+        const Real upper = select(yields, (q_trial - k.value) * inverse_S, Real(1.0));
+        Solution<Real> end{{upper, k}, at.end_ratio, at.end_ratio_change, at.end_hardening, Mask<Real>(false)};
+        if constexpr (!is_differentiated<Real>)
+            if (at.slowest < HUGE_VAL) end = step_from(start_of(S, at, q_trial, k, upper), S, at, q_trial, alpha);
+        if (!all(end.found || !yields)) [[unlikely]] {
+            const Mask<Real> left = yields && !end.found;
+            const Solution<Real> other =
+                solve_slowly(*this, S, at, q_trial, alpha, k, upper, Real(end.result.dalpha), left);
+            end = either_end(left, other, end);
         }
-        const Slow<Real> all_lanes = solve_slowly(*this, S, at, q_trial, alpha, k, upper, yields);
-        at.end_ratio = select(yields, all_lanes.ratio, at.end_ratio);
-        at.end_ratio_slope = select(yields, all_lanes.ratio_slope, at.end_ratio_slope);
-        return all_lanes.result;
+        at.end_ratio = select(yields, end.ratio, at.end_ratio);
+        at.end_ratio_change = select(yields, end.ratio_change, at.end_ratio_change);
+        at.end_hardening = select(yields, end.hardening, at.end_hardening);
+        return end.result;
     }
     template <Line line>
     double plastic_share(const At<double>&, double H) const {
@@ -127,32 +147,29 @@ class JohnsonCook {
     template <class Real>
     LODE_INLINE PlasticWork<Real> work(const At<Real>& at, const Real& alpha, const Real& dalpha,
                                        const FlowStress<Real>& k, const FlowStress<Real>& k_end) const {
-        // R T at the end, from K itself; B alpha^n at the start from K there.
-        const Real h = strain_hardening_from(k.value, slow_ratio_ * at.thermal);
-        const PowerHardening curve{yield_, rise_, exponent_};
-        Real ratio = at.end_ratio;
-        if (!at.solved) ratio = select(dalpha > Real(0.0), rate_ratio(at, dalpha), Real(slow_ratio_));
-        ratio = ratio * at.thermal;
-        const Real h_end = strain_hardening_from(k_end.value, ratio);
-        const Real stored =
-            curve.stored_energy(alpha, dalpha, FlowStress<Real>{h, h, h}, FlowStress<Real>{h_end, h_end, h_end});
-        return {yield_ * ratio, ratio * stored};
+        // In plane stress the return does not go through `solve`.
+        Real ratio = at.end_ratio, h_end = at.end_hardening;
+        if (!at.solved) {
+            ratio = select(dalpha > Real(0.0), this->ratio(at, log_rate(at, dalpha)).value, Real(slow_ratio_));
+            h_end = select(at.thermal > Real(0.0), k_end.value / ratio, Real(0.0));
+        }
+        const Real base = yield_ * at.thermal, h = inverse_slow_ratio_ * k.value;
+        const Real stored = PowerHardening::integral(exponent_, alpha, dalpha, h - base, h_end - base);
+        return {ratio * base, ratio * stored};
     }
 
     // See `HeatSlopes`.
-    HeatSlopes slopes(const At<double>& at, double alpha, double dalpha, const FlowStress<double>& k,
-                      const FlowStress<double>& k_end) const {
-        const double below = std::min(std::max(at.star, 0.0), 1.0);
-        double thermal_slope = 0.0;  // T'
-        if (below > 0.0 && below < 1.0)
-            thermal_slope = -thermal_exponent_ * per_range_ *
-                            (thermal_exponent_ == 1.0 ? 1.0 : quick_pow(below, thermal_exponent_ - 1.0));
-        const double per_T = thermal_slope / at.thermal;  // T'/T
+    LODE_INLINE HeatSlopes slopes(const At<double>& at, double alpha, double dalpha, const FlowStress<double>& k,
+                                  const FlowStress<double>& k_end) const {
+        const double below = min(max(at.star, 0.0), 1.0);
+        double per_T = 0.0;  // T'/T
+        if (below > 0.0 && below < 1.0) per_T = -thermal_exponent_ * per_range_ * at.star_power / (below * at.thermal);
         const PlasticWork<double> w = work(at, alpha, dalpha, k, k_end);
-        // (dR/d dalpha)/R; in plane stress the return does not go through solve_along, which notes it.
-        const Ratio<double> r = at.solved ? Ratio<double>{at.end_ratio, at.end_ratio_slope, 0.0}
-                                          : ratio(at, quick_log(std::max(dalpha, 1e-300)));
-        const double per_R = r.slope / (r.value * dalpha);
+        double per_R = at.end_ratio_change;  // (dR/d dalpha)/R
+        if (!at.solved) {
+            const Ratio<double> r = ratio(at, log_rate(at, dalpha));
+            per_R = r.slope / (r.value * dalpha);
+        }
         HeatSlopes s;
         s.flow_temperature = k_end.value * per_T;
         s.source_strain = w.friction * (1.0 + dalpha * per_R);
@@ -167,10 +184,14 @@ class JohnsonCook {
     struct Ratio {
         Real value, slope, bend;  // R and its derivatives by ln(dalpha)
     };
+    // L = ln(rate/EPS0) of dalpha = x, and R there.
     template <class Real>
-    LODE_INLINE Ratio<Real> ratio(const At<Real>& at, const Real& log_x) const {
+    LODE_INLINE static Real log_rate(const At<Real>& at, const Real& x) {
+        return quick_log(max(at.rate_scale * x, Real(1e-300)));
+    }
+    template <class Real>
+    LODE_INLINE Ratio<Real> ratio(const At<Real>& at, const Real& L) const {
         if (at.slowest == HUGE_VAL) return {Real(slow_ratio_), Real(0.0), Real(0.0)};
-        const Real L = log_x + at.log_rate_scale;
         const auto above = L > Real(log_slowest_);
         const Real bounded = max(L, Real(log_slowest_));
         Ratio<Real> r{1.0 + rate_factor_ * bounded, select(above, Real(rate_factor_), Real(0.0)), Real(0.0)};
@@ -185,131 +206,128 @@ class JohnsonCook {
         }
         return r;
     }
-    template <class Real>
-    LODE_INLINE Real rate_ratio(const At<Real>& at, const Real& dalpha) const {
-        return ratio(at, quick_log(max(dalpha, Real(1e-300)))).value;
-    }
-
     // Y + B alpha^n.
     template <class Real>
     LODE_INLINE FlowStress<Real> strain_hardening(const Real& alpha) const {
         return PowerHardening{yield_, rise_, exponent_}.flow_stress(alpha);
     }
-    template <class Real>
-    LODE_INLINE static Real strain_hardening_from(const Real& k, const Real& factor) {
-        const auto solid = factor > Real(0.0);
-        return select(solid, k / select(solid, factor, Real(1.0)), Real(0.0));
-    }
 
     template <class Real>
-    LODE_INLINE FlowStress<Real> flow(const At<Real>& at, const Real& alpha, const Real& x, const Real& log_x) const {
-        const FlowStress<Real> h = strain_hardening(alpha + x);
-        const Ratio<Real> r = ratio(at, log_x);
-        const Real per_x = 1.0 / max(x, Real(1e-300));
-        const Real r1 = r.slope * per_x, r2 = (r.bend - r.slope) * (per_x * per_x);
-        return {at.thermal * (h.value * r.value), at.thermal * (h.slope * r.value + h.value * r1),
-                at.thermal * (h.curvature * r.value + 2.0 * h.slope * r1 + h.value * r2)};
-    }
-
-    template <class Real>
-    struct Slow {
+    struct Solution {
         ReturnResult<Real> result;
-        Real ratio, ratio_slope;
+        Real ratio, ratio_change, hardening;  // see At
+        Mask<Real> found;
     };
     template <class Real>
-    struct Quick : Slow<Real> {
-        Mask<Real> solved;
-    };
+    LODE_INLINE static Solution<Real> either_end(const Mask<Real>& first, const Solution<Real>& a,
+                                                 const Solution<Real>& b) {
+        return {either(first, a.result, b.result), select(first, a.ratio, b.ratio),
+                select(first, a.ratio_change, b.ratio_change), select(first, a.hardening, b.hardening),
+                (first && a.found) || (!first && b.found)};
+    }
 
-    // The usual case, a hardened point that flows much faster than RMIN EPS0: one evaluation of K. It starts where the
-    // hardening of the beginning, a cubic, and R at a first guess lead; a step of Halley's from there is so short that
-    // series tell K at its end, and Newton's step from those is the last.
+    // The usual case, a hardened point that flows faster than RMIN EPS0, takes one evaluation of K: a step of fourth
+    // order from a good start is so short that series tell K at its end, and Newton's step from those is the last.
+
+    // Where the return would end if the strain hardening went on straight and R were straight in ln x. With v = x/upper
+    // that is c v + B ln v = over, Newton's steps for which come near enough with estimates of the logarithm.
     template <class Real, class Number>
-    LODE_INLINE Quick<Real> solve_quickly(const Number& S, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                          const FlowStress<Real>& k, const Real& upper) const {
-        const double per_slow = 1.0 / slow_ratio_, n = exponent_;
-        const Real per_alpha = 1.0 / max(alpha, Real(1e-100));
-        const Real h = per_slow * k.value, h1 = per_slow * k.slope, h2 = per_slow * k.curvature;  // times T
-        const Real h3 = (n - 2.0) * per_alpha * h2;
-        const Real first = ratio(at, quick_log(upper)).value;
-        const Real guess = (q_trial - h * first) / (S + h1 * first);
-        Mask<Real> sound = guess > 0.02 * upper && guess < upper && guess < 0.4 * alpha;
-        Real x = select(sound, guess, upper);
-        {
-            const Ratio<Real> r = ratio(at, quick_log(x));
-            const Real per_x = 1.0 / x, r1 = r.slope * per_x, r2 = (r.bend - r.slope) * (per_x * per_x);
-            const Real g = h + x * (h1 + x * (0.5 * h2 + (1.0 / 6.0) * x * h3)), g1 = h1 + x * (h2 + 0.5 * x * h3);
-            const Real g2 = h2 + x * h3;
-            const Real f = q_trial - S * x - g * r.value, f1 = S + g1 * r.value + g * r1;
-            const Real f2 = g2 * r.value + 2.0 * g1 * r1 + g * r2;
-            const Real better = x + f * f1 / (f1 * f1 + 0.5 * f * f2);
-            sound = sound && better > 0.5 * x && better < upper;
-            x = select(sound, better, upper);
-        }
-        const Real a = alpha + x, log_x = quick_log(x), per_x = 1.0 / x, per_a = 1.0 / a;
-        const Real raised = (rise_ * at.thermal) * quick_exp(n * quick_log(a));
-        const Real g = yield_ * at.thermal + raised, g1 = n * raised * per_a, g2 = (n - 1.0) * g1 * per_a;
-        const Real g3 = (n - 2.0) * g2 * per_a, g4 = (n - 3.0) * g3 * per_a;
-        const Ratio<Real> r = ratio(at, log_x);
-        const Real r1 = r.slope * per_x, r2 = (r.bend - r.slope) * (per_x * per_x);
-        const Real f = q_trial - S * x - g * r.value, f1 = S + g1 * r.value + g * r1;
-        const Real f2 = g2 * r.value + 2.0 * g1 * r1 + g * r2;
-        const Real d = f * f1 / (f1 * f1 + 0.5 * f * f2), part = d * per_x;
+    LODE_INLINE Real start_of(const Number& S, const At<Real>& at, const Real& q_trial, const FlowStress<Real>& k,
+                              const Real& upper) const {
+        const Real h = inverse_slow_ratio_ * k.value, h1 = inverse_slow_ratio_ * k.slope;
+        const Ratio<Real> r = ratio(at, estimated_log(at.rate_scale * upper));
+        const Real B = h * r.slope, c = upper * (S + h1 * r.value), over = q_trial - h * r.value;
+        Real slow(1.0);
+        if (any(over < Real(0.0))) slow = quick_exp(min(over, Real(0.0)) / max(B, Real(1e-300)));
+        Real v = slow * (B + positive_part(over)) / (B + c * slow);
+        v = v * (B + over - B * estimated_log(v)) / (B + c * v);
+        return upper * min(max(v, Real(1e-12)), Real(1.0));
+    }
 
-        const Real log_end = log_x + part * (1.0 - part * (0.5 - part * (1.0 / 3.0 - part * (0.25 - 0.2 * part))));
-        const Real per_end = per_x * (1.0 - part * (1.0 - part * (1.0 - part)));
-        const Real e = g + d * (g1 + d * (0.5 * g2 + d * ((1.0 / 6.0) * g3 + (1.0 / 24.0) * d * g4)));
-        const Real e1 = g1 + d * (g2 + d * (0.5 * g3 + (1.0 / 6.0) * d * g4));
-        const Ratio<Real> end = ratio(at, log_end);
-        const Real slope = e1 * end.value + e * (end.slope * per_end);
-        const Real last = (q_trial - S * (x + d) - e * end.value) / (S + slope);
-        const Real dalpha = x + d + last;
-        Quick<Real> quick;
-        quick.result = {dalpha, {q_trial - S * dalpha, slope, Real(0.0)}};
-        quick.ratio = end.value;
-        quick.ratio_slope = end.slope;
-        quick.solved = sound && abs(part) < Real(4e-3) && abs(last) <= 1e-8 * x && x > Real(2.0 * at.slowest);
-        return quick;
+    // From x to x (1 + p).
+    template <class Real, class Number>
+    LODE_INLINE Solution<Real> step_from(const Real& x, const Number& S, const At<Real>& at, const Real& q_trial,
+                                         const Real& alpha) const {
+        const double(&c)[4] = binomial_;
+        const Real a = alpha + x, per_a = 1.0 / a, t = x * per_a, L = log_rate(at, x);
+        const Real base = yield_ * at.thermal, raised = (rise_ * at.thermal) * quick_exp(exponent_ * quick_log(a));
+        const Ratio<Real> r = ratio(at, L);
+        // g R and its derivatives by p.
+        const Real g = base + raised, turn = t * raised;
+        const Real g1 = c[0] * turn, g2 = (2.0 * c[1]) * (t * turn), g3 = (6.0 * c[2]) * (t * t * turn);
+        const Real r2 = r.bend - r.slope, r3 = 2.0 * r.slope - 3.0 * r.bend;
+        const Real f1 = S * x + g1 * r.value + g * r.slope, f2 = g2 * r.value + 2.0 * g1 * r.slope + g * r2;
+        const Real f3 = g3 * r.value + 3.0 * g2 * r.slope + 3.0 * g1 * r2 + g * r3;
+        const Real inverse = 1.0 / f1, b = (0.5 * inverse) * f2;
+        const Real first = inverse * (q_trial - S * x - g * r.value);
+        const Real p = first * (1.0 - first * (b - first * (2.0 * (b * b) - (1.0 / 6.0 * inverse) * f3)));
+
+        const Real u = p * t, u2 = u * u, p2 = p * p;
+        const Real e = g + raised * (u * ((c[0] + u * c[1]) + u2 * (c[2] + u * c[3])));
+        const Real e1 = (raised * per_a) * ((c[0] + u * (2.0 * c[1])) + u2 * (3.0 * c[2] + u * (4.0 * c[3])));
+        const Real longer = p * ((1.0 - 0.5 * p) + p2 * ((1.0 / 3 - 0.25 * p) + p2 * (0.2 - (1.0 / 6) * p)));
+        const Ratio<Real> there = ratio(at, L + longer);
+        const Real last = inverse * (q_trial - S * (x + p * x) - e * there.value) * (1.0 - 2.0 * (b * p));
+        const Real dalpha = x + x * (p + last);
+        const Real change = there.slope / (there.value * dalpha);
+        Mask<Real> found = abs(p) < Real(6e-3) && abs(u) < Real(1.5e-3) && abs(last) <= Real(1e-9) &&
+                           x > Real(2.0 * at.slowest) && at.thermal > Real(0.0);
+        if (fast_factor_ != 0.0) found = found && abs(longer) < abs(L);
+        return {{dalpha, {q_trial - S * dalpha, there.value * (e1 + e * change), Real(0.0)}},
+                there.value + there.slope * last,
+                change,
+                e + e1 * (x * last),
+                found};
     }
 
     // The residual as a function of y = ln(dalpha), in which R is straight.
     template <bool with_rate, class Real, class Number>
     LODE_INLINE auto in_logarithm(const At<Real>& at, const Real& q_trial, const Real& alpha, const Number& S) const {
-        return [self = *this, at, q_trial, alpha, S](const Real& y) {
+        const double log_scale = with_rate ? quick_log(at.rate_scale) : 0.0;
+        return [self = *this, at, q_trial, alpha, S, log_scale](const Real& y) {
             const Real x = quick_exp(y);
             const FlowStress<Real> h = self.strain_hardening(alpha + x);
             Ratio<Real> r{Real(self.slow_ratio_), Real(0.0), Real(0.0)};
-            if constexpr (with_rate) r = self.ratio(at, y);
+            if constexpr (with_rate) r = self.ratio(at, y + log_scale);
             const Real h1 = x * h.slope, h2 = x * (x * h.curvature) + h1;  // by y
             const Real k1 = at.thermal * (h1 * r.value + h.value * r.slope);
             const Real k2 = at.thermal * (h2 * r.value + 2.0 * (h1 * r.slope) + h.value * r.bend);
-            const Real k = at.thermal * (h.value * r.value), drop = S * x, per_x = 1.0 / x;
-            return Trial<Real>{q_trial - drop - k,
-                               Real(0.0) - drop - k1,
-                               Real(0.0) - drop - k2,
-                               {{x, {k, k1 * per_x, Real(0.0)}}, r.value, r.slope}};
+            const Real g = at.thermal * h.value, k = g * r.value, drop = S * x, per_x = 1.0 / x;
+            return Trial<Real>{
+                q_trial - drop - k,
+                Real(0.0) - drop - k1,
+                Real(0.0) - drop - k2,
+                {{x, {k, k1 * per_x, Real(0.0)}}, r.value, r.slope * per_x / r.value, g, Mask<Real>(true)}};
         };
     }
     template <class Real>
     struct Trial {
         Real value, slope, curvature;
-        Slow<Real> end;
+        Solution<Real> end;
     };
-    template <class Real>
-    static Slow<Real> either_end(const Mask<Real>& first, const Slow<Real>& a, const Slow<Real>& b) {
-        return {either(first, a.result, b.result), select(first, a.ratio, b.ratio),
-                select(first, a.ratio_slope, b.ratio_slope)};
-    }
 
-    // Any case, out of line: bracketed, for ln(dalpha), on the one or the other side of r = RMIN.
+    // Any case, out of line: more such steps; then bracketed, for ln(dalpha), on the one or the other side of r = RMIN.
     template <class Real, class Number>
-    [[gnu::noinline]] static Slow<Real> solve_slowly(JohnsonCook self, Number S, At<Real> at, Real q_trial, Real alpha,
-                                                     FlowStress<Real> k, Real upper, Mask<Real> active) {
-        const auto ln = [](const Mask<Real>& lanes, const Real& x) { return quick_log(select(lanes, x, Real(1.0))); };
+    [[gnu::noinline]] static Solution<Real> solve_slowly(JohnsonCook self, Number S, At<Real> at, Real q_trial,
+                                                         Real alpha, FlowStress<Real> k, Real upper, Real x,
+                                                         Mask<Real> active) {
+        const Mask<Real> found(true);
+        Solution<Real> end{
+            {upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0), Real(0.0), found};
+        if constexpr (!is_differentiated<Real>)
+            for (int i = 0; i < 2 && at.slowest < HUGE_VAL; ++i) {
+                x = max(min(x, upper), 0.01 * upper);
+                const Solution<Real> next = self.step_from(x, S, at, q_trial, alpha);
+                const Mask<Real> here = active && next.found;
+                end = either_end(here, next, end);
+                active = active && !here;
+                if (!any(active)) return end;
+                x = next.result.dalpha;
+            }
+        const auto ln = [](const Mask<Real>& lanes, const Real& z) { return quick_log(select(lanes, z, Real(1.0))); };
         const Real tolerance = return_tolerance * q_trial;
         // Molten: nothing is left to the yield stress.
         const Mask<Real> solid = active && at.thermal > Real(0.0);
-        Slow<Real> end{{upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0)};
         // At r = RMIN the stress tells on which side the root is.
         Mask<Real> fast(false);
         if (at.slowest < HUGE_VAL)
@@ -340,8 +358,9 @@ class JohnsonCook {
 
     double yield_, rise_, exponent_, rate_factor_, rate_, thermal_exponent_, reference_temperature_;
     double fast_factor_, fast_exponent_;
-    double stiffness_[2];
-    double per_range_ = 0.0, log_slowest_, slowest_rate_, slow_ratio_, log_rate_;
+    double stiffness_[2], inverse_stiffness_[2];
+    double per_range_ = 0.0, log_slowest_, slowest_rate_, slow_ratio_, inverse_slow_ratio_, inverse_rate_;
+    double binomial_[4];  // of the exponent
     bool ignores_rate_;
 };
 

@@ -69,16 +69,10 @@ class IncrementRules {
         if constexpr (Law::remembers)
             if (const DislocationHardening* memory = memory_of_law())
                 s.densities = memory->initial(Densities<Real>{point.state[RC], point.state[RW]});
-        set_time(s, increment.time_increment);
+        s.time = increment.time_increment;
         step.at = law.at(s);
         step.keeps_plastic_strain = point.state.has(EP + 5);
         return true;
-    }
-
-    template <class Real>
-    LODE_INLINE static void set_time(Surroundings<Real>& s, const TimeIncrement& time) {
-        s.time = time;
-        if constexpr (Law::feels_rate) s.log_rate = time.value > 0.0 ? -quick_log(time.value) : 0.0;
     }
 
     template <AnalysisKind kind, class Real>

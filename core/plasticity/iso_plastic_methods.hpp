@@ -61,7 +61,7 @@ class SteppedKernel {
         const double part = 1.0 / substeps_;
         const Stress<kind, Real> stress = point.stress;
         for (int i = 0; i < components(kind); ++i) step.strain[i] = part * step.strain[i];
-        kernel_.set_time(step.surroundings, increment.time_increment.value * part);
+        step.surroundings.time = increment.time_increment.value * part;
         step.at = kernel_.law.at(step.surroundings);
         Vector<Real, n> plastic_strain;
         for (int i = 0; i < n; ++i) plastic_strain[i] = Real(0.0);

@@ -32,7 +32,6 @@ struct Surroundings {
     Real pressure = Real(0.0);     // at the start of the increment
     Real scale = Real(1.0);        // h/LREF of a softening law
     TimeIncrement time;            // of the step: DTIME, or its part
-    double log_rate = 0.0;         // ln(1/time)
     Densities<Real> densities{Real(0.0), Real(0.0)};
 };
 
