@@ -288,7 +288,8 @@ class JohnsonCook {
             const Real x = quick_exp(y);
             const FlowStress<Real> h = self.strain_hardening(alpha + x);
             Ratio<Real> r{Real(self.slow_ratio_), Real(0.0), Real(0.0)};
-            if constexpr (with_rate) r = self.ratio(at, y + log_scale);
+            [[maybe_unused]] const Real L = y + log_scale;
+            if constexpr (with_rate) r = self.ratio(at, L);
             const Real h1 = x * h.slope, h2 = x * (x * h.curvature) + h1;  // by y
             const Real k1 = at.thermal * (h1 * r.value + h.value * r.slope);
             const Real k2 = at.thermal * (h2 * r.value + 2.0 * (h1 * r.slope) + h.value * r.bend);

@@ -157,6 +157,7 @@ TEST(HostProfile, CalculixWorksInTheUnrotatedFrame) {
 // It leaves PREDEF, DPRED and CELENT uninitialised: nothing that stands there by chance counts, and a softening model
 // is refused that has no length of its own.
 TEST(HostProfile, CalculixHasNoFieldsAndNoElementLength) {
+    LODE_NEEDS("ISO_PLASTIC");
     UmatPoint swelling("ISO_ELASTIC", solid, {1000.0, 0.25, 0.0, 0.01});
     swelling.fields({3.0});
     const Load load{.dstran = {1e-3, 0, 0, 0, 0, 0}, .dpred = {1.0}, .pnewdt = -1.0};
