@@ -309,7 +309,7 @@ TEST(IsoDamage, DamageByItsRateIsOfFirstOrder) {
     for (const AnalysisKind kind : {solid, plane_strain, plane_stress, uniaxial})
         for (int trial = 0; trial < 10; ++trial) {
             UmatPoint point = made(kind, by_rate(1));
-            std::vector<Numbers> path(4, Numbers(point.size()));
+            std::vector<Numbers> path(4, Numbers(point.stress().size()));
             for (Numbers& d : path)
                 for (double& x : d) x = 2e-4 * normal(random);
             for (int i = 0; i < 3; ++i) point.advance({.dstran = path[std::size_t(i)]});

@@ -508,7 +508,7 @@ TEST(PhaseField, AlternativesAreOfFirstOrder) {
                     std::mt19937 random(7);
                     std::normal_distribution<double> normal;
                     UmatPoint point = made(kind, with_method(part, source, method));
-                    std::vector<Numbers> path(4, Numbers(point.size()));
+                    std::vector<Numbers> path(4, Numbers(point.stress().size()));
                     for (Numbers& d : path)
                         for (double& x : d) x = 2e-4 * normal(random);
                     for (int i = 0; i < 3; ++i) point.advance({.dstran = path[std::size_t(i)]});
