@@ -315,7 +315,13 @@ struct CoupledInterface {
         const Real most = max(end.dn, old.dn);
         const Real x =
             solve_bracketed<Slope::decreasing>(residual, old.dn, most, min(start, most), Real(1e-14), active).x;
-        return {x, partner(x)};
+        const Real d2 = partner(x);
+        if (method == MixedMode::equal_damage) return {x, d2};
+        // Near failure the partner may move far while this mode hardly does: then the ellipse knows it better.
+        const Real part1 = square(u1 / max(x, Real(1e-150))), part2 = square(u2 / max(d2, Real(1e-150)));
+        const Mask<Real> fast =
+            active && part1 < Real(1.0) && part2 * x * rate(second, d2) > part1 * d2 * rate(first, x);
+        return {x, select(fast, max(u2 / sqrt(max(1.0 - part1, Real(1e-150))), old.dt), d2)};
     }
 
     // 6. the energies of the way from `old` to `now`, and what drops at failure (4.4)
