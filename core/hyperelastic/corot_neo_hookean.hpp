@@ -87,9 +87,7 @@ struct CorotNeoHookean {
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
-        State<Real>& state = point.state;
-        const Real e = residual.end(increment, state[1]);
-        Real f33m1 = state[2];
+        const Real e = residual.end(increment, point.state[1]);
         auto k = residual.mechanical(increment, e);
         Mask<Real> valid = k.jacobian > Real(0.0) && is_finite(trace(k.b));
 
@@ -121,14 +119,7 @@ struct CorotNeoHookean {
                 [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
         }
 
-        if constexpr (is_plane_stress) {
-            const Real f33m1_old = f33m1;
-            f33m1 = residual.total_thickness_change(k.h(2, 2), e);
-            if (point.wants_thickness_strain)
-                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
-        }
-        state.set(1, e);
-        state.set(2, f33m1);
+        residual.store(point, k, e);
     }
 
     IsotropicModuli moduli;

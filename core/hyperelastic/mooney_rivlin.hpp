@@ -208,15 +208,7 @@ struct MooneyRivlin {
                 [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
         }
 
-        if constexpr (is_plane_stress) {
-            const Real f33m1_old = state[2], f33m1 = residual.total_thickness_change(k.h(2, 2), e);
-            if (point.wants_thickness_strain)
-                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
-            state.set(2, f33m1);
-        } else {
-            state.keep(2);
-        }
-        state.set(1, e);
+        residual.store(point, k, e);
     }
 
     // Section 2.3, with m = I1bar Bbar - Bbar^2:

@@ -87,8 +87,7 @@ struct NeoHookean {
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         constexpr bool is_plane_stress = kind == AnalysisKind::plane_stress;
         constexpr int normals = normal_components(kind);
-        State<Real>& state = point.state;
-        const Real e = residual.end(increment, state[1]);
+        const Real e = residual.end(increment, point.state[1]);
         auto k = residual.mechanical(increment, e);
 
         if constexpr (is_plane_stress) {
@@ -116,15 +115,7 @@ struct NeoHookean {
 
         if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);
 
-        if constexpr (is_plane_stress) {
-            const Real f33m1_old = state[2], f33m1 = residual.total_thickness_change(k.h(2, 2), e);
-            if (point.wants_thickness_strain)
-                point.thickness_strain_increment = thickness_strain_change(f33m1_old, f33m1);
-            state.set(2, f33m1);
-        } else {
-            state.keep(2);
-        }
-        state.set(1, e);
+        residual.store(point, k, e);
     }
 
     IsotropicModuli moduli;

@@ -8,6 +8,12 @@
 
 namespace lode {
 
+// Thickness strain increment (logarithmic) of plane stress from the total F33 - 1.
+template <class Real>
+inline Real thickness_strain_change(const Real& f33m1_old, const Real& f33m1) {
+    return log1p(f33m1) - log1p(f33m1_old);
+}
+
 struct ResidualStrain {
     double thermal_expansion = 0.0, moisture_expansion = 0.0;
 
@@ -38,6 +44,20 @@ struct ResidualStrain {
     template <class Real>
     Real total_thickness_change(const Real& d, const Real& e) const {
         return is_absent(e) ? d : d + expm1(e) * (1.0 + d);
+    }
+
+    // STATEV 1 and 2, e and F33 - 1, of models that keep nothing else; in plane stress the change of the thickness too.
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE void store(Point<kind, Real>& point, const Kinematics<kind, Real>& k, const Real& e) const {
+        State<Real>& state = point.state;
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            const Real before = state[2], f33m1 = total_thickness_change(k.h(2, 2), e);
+            if (point.wants_thickness_strain) point.thickness_strain_increment = thickness_strain_change(before, f33m1);
+            state.set(2, f33m1);
+        } else {
+            state.keep(2);
+        }
+        state.set(1, e);
     }
 };
 
@@ -117,12 +137,6 @@ inline Stress<kind, Real> square_of(const Stress<kind, Real>& a) {
         r[3] = (a[0] + a[1]) * a[3];
     }
     return r;
-}
-
-// Thickness strain increment (logarithmic) of plane stress from the total F33 - 1.
-template <class Real>
-inline Real thickness_strain_change(const Real& f33m1_old, const Real& f33m1) {
-    return log1p(f33m1) - log1p(f33m1_old);
 }
 
 }  // namespace lode
