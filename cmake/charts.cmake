@@ -7,6 +7,9 @@ if(LODE)
   endif()
   execute_process(COMMAND ${LODE} chart --all --first --path corner --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${LODE} atlas --all --first --output ${DIRECTORY} COMMAND_ERROR_IS_FATAL ANY)
+  # POROUS_<KEYWORD> repeats what its solid shows.
+  file(GLOB porous ${DIRECTORY}/POROUS_*)
+  file(REMOVE ${porous})
 endif()
 # The pages show the SVG files; tables, scripts and bitmaps are for whoever runs the commands.
 file(GLOB rest ${DIRECTORY}/*.csv ${DIRECTORY}/*.gp ${DIRECTORY}/*.png)

@@ -138,7 +138,7 @@ Sheets limit_point_maps(const Subject& s, bool) {
     return {limit_point_sheet(*limit, s.stem("limit_point"), s.title("stress control up to a limit point"))};
 }
 
-// With a single algorithm that is never at a loss there is nothing to see.
+// With algorithms that are never at a loss there is nothing to see.
 Sheets failure_maps(const Subject& s, bool quiet) {
     if (s.library.umat() == nullptr) return {};
     const Scenario scene = s.scenario();
@@ -153,7 +153,7 @@ Sheets failure_maps(const Subject& s, bool quiet) {
     const auto never = [](const AlgorithmRates& a) {
         return std::all_of(a.rates.begin(), a.rates.end(), [](const FailureRate& r) { return r.cut == 0; });
     };
-    if (rates.empty() || (rates.size() == 1 && never(rates.front()))) return {};
+    if (std::all_of(rates.begin(), rates.end(), never)) return {};
     return {failure_sheet(rates, s.stem("failures"), s.title("random increments that are refused"))};
 }
 
