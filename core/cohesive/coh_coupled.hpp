@@ -44,7 +44,7 @@ struct CohCoupled {
          cohesive_kinds},
     };
     static constexpr lode_algorithm algorithms[] = {
-        {"exact for constant mixity, energies by the mixity at the end of the increment", 0, 0.0, 1.0},
+        {"exact for constant mixity: energies by the mixity at the end of the increment", 0, 0.0, 1.0},
     };
     static constexpr lode_model description = {
         .keyword = "COH_COUPLED",

@@ -102,10 +102,10 @@ inline constexpr lode_sample samples[] = {
 };
 
 inline constexpr lode_algorithm algorithms[] = {
-    {"damage from the strain at the end of the increment, exact; the dissipation is exact for METRIC 0 and on "
+    {"damage from the end strain: exact; the dissipation is exact for METRIC 0 and on "
      "proportional paths",
      METH, 0.0, 1.0},
-    {"damage by the rate at the start of the increment (the source)", METH, 1.0, 1.0},
+    {"damage by the rate at the start (the source)", METH, 1.0, 1.0},
 };
 
 inline constexpr lode_model description = {

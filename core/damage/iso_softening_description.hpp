@@ -122,8 +122,7 @@ inline constexpr lode_sample samples[] = {
 };
 
 inline constexpr lode_algorithm algorithms[] = {
-    {"damage from the strain at the end of the increment, exact but for where in the increment a crack forms or fails",
-     METH, 0.0, 1.0},
+    {"damage from the end strain: exact but for where in the increment a crack forms or fails", METH, 0.0, 1.0},
     {"explicit step of the source", METH, 1.0, 1.0},
 };
 

@@ -82,8 +82,7 @@ inline constexpr lode_sample samples[] = {
 };
 
 inline constexpr lode_algorithm algorithms[] = {
-    {"total form in the strain at the end of the increment, exact; the dissipation by the trapezoid rule", METH, 0.0,
-     2.0},
+    {"total form in the end strain: exact; the dissipation by the trapezoid rule", METH, 0.0, 2.0},
     {"increments of stress, staggered (the source)", METH, 1.0, 1.0},
     {"total form, staggered", METH, 2.0, 1.0},
 };

@@ -78,7 +78,7 @@ inline constexpr lode_sample samples[] = {
 };
 
 inline constexpr lode_algorithm algorithms[] = {
-    {"pressure as a state function; backward Euler, radial return of the deviator", 0, 0.0, 1.0},
+    {"backward Euler, radial return: the pressure is a function of state", 0, 0.0, 1.0},
 };
 
 inline constexpr lode_model description = {
