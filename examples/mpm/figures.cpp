@@ -105,14 +105,6 @@ const char* const opening_colours =
 const char* const stress_colours =
     "set palette defined (-1 '#1f5fa8', -0.4 '#a9c8e8', 0 '#f2f2f2', 0.4 '#f2b895', 1 '#b0301e')\nset colorbox";
 
-Settings setting(double h_mm, double angle, Filling filling = Filling::rotated) {
-    Settings s;
-    s.h = 1e-3 * h_mm;
-    s.angle = angle;
-    s.filling = filling;
-    return s;
-}
-
 enum Moment : std::size_t { elastic_stage, softening_stage };  // of the study's snapshots
 
 void stress_figure(Figure& figure, const Campaign& campaign, const Settings& left, const Settings& right,

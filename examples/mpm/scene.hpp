@@ -55,6 +55,14 @@ struct Settings {
     std::string name() const;
     std::string file_name() const;
 };
+// The usual ones with another grid, angle (degrees) or filling.
+inline Settings setting(double h_mm, double angle, Filling filling = Filling::rotated) {
+    Settings s;
+    s.h = 1e-3 * h_mm;
+    s.angle = angle;
+    s.filling = filling;
+    return s;
+}
 
 struct PlacedPoint {
     Vec local, position, velocity;  // local: x', y' along and across the bar

@@ -21,13 +21,6 @@ constexpr double crack_energy = 2.0 * bar::W * bar::D * bar::G_f;
 // soften in an order that hangs on rounding (bifurcations): work within 10 %, the peak before most of that within 2 %.
 constexpr double along_tolerance = 0.005, oblique_work = 0.10, oblique_peak = 0.02;
 
-Settings setting(double h_mm, double angle, Filling filling = Filling::rotated) {
-    Settings s;
-    s.h = 1e-3 * h_mm;
-    s.angle = angle;
-    s.filling = filling;
-    return s;
-}
 Settings pattern(double h_mm, WeakPattern p) {
     Settings s = setting(h_mm, 0.0);
     s.pattern = p;

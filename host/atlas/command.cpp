@@ -226,13 +226,8 @@ std::vector<std::string> atlas_maps() {
 }
 
 Status atlas(const AtlasOptions& options) {
-    std::vector<Scenario> decks;
     std::string request = options.library;
-    for (const auto& target : options.targets) {
-        if (!is_deck(target)) continue;
-        decks.push_back(read_named_deck(target));
-        if (request.empty()) request = decks.back().material.library;
-    }
+    std::vector<Scenario> decks = decks_among(options.targets, request);
     const Library library(request);
     std::vector<std::pair<const lode_model*, const lode_sample*>> samples;
     if (options.all) samples = all_samples(library);

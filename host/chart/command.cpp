@@ -50,14 +50,8 @@ void add_sample(std::vector<Scenario>& scenes, const lode_model& model, const lo
 }  // namespace
 
 Status chart(const ChartOptions& options) {
-    // A deck may name its library.
-    std::vector<Scenario> scenes;
     std::string request = options.library;
-    for (const auto& target : options.targets) {
-        if (!is_deck(target)) continue;
-        scenes.push_back(read_named_deck(target));
-        if (request.empty()) request = scenes.back().material.library;
-    }
+    std::vector<Scenario> scenes = decks_among(options.targets, request);
     const Libraries libraries(request, options.single_library);
     const std::size_t decks = scenes.size();
     for (const auto& target : options.targets)

@@ -207,10 +207,15 @@ bool is_deck(const std::string& argument) {
     return argument.ends_with(".toml") || std::filesystem::is_regular_file(argument, ignored);
 }
 
-Scenario read_named_deck(const std::string& path) {
-    Scenario scenario = read_deck(path);
-    if (scenario.stem == "deck") scenario.stem = std::filesystem::absolute(path).parent_path().filename().string();
-    return scenario;
+std::vector<Scenario> decks_among(const std::vector<std::string>& arguments, std::string& library) {
+    std::vector<Scenario> decks;
+    for (const std::string& argument : arguments) {
+        if (!is_deck(argument)) continue;
+        Scenario& deck = decks.emplace_back(read_deck(argument));
+        if (deck.stem == "deck") deck.stem = std::filesystem::absolute(argument).parent_path().filename().string();
+        if (library.empty()) library = deck.material.library;
+    }
+    return decks;
 }
 
 }  // namespace lode::host
