@@ -164,9 +164,9 @@ inline constexpr lode_model description = {
         "- PDM 1 under tension would give a negative strength: floor 0.001 TAUC.\n"
         "- DDSDDE of an open failed crack is singular and returned as it is.\n"
         "- METH = 1 is there to be compared: of first order, with a tangent of its own. Tractions may leave the "
-        "surface "
-        "and linked damages drift apart by the error of the increments, and so do SSE + SPD from the work done. The "
-        "increment in which a crack forms is that of METH = 0.\n",
+        "surface (they come back by no more than the next increment) and linked damages drift apart by the error of "
+        "the increments, and so do SSE + SPD from the work done. The increment in which a crack forms is that of "
+        "METH = 0.\n",
 };
 
 }  // namespace lode::iso_softening

@@ -1,6 +1,8 @@
 // The incremental update of the source (Nairn, 5.6.1 to 5.6.3, special theory) in place of the exact one: the strain
 // beyond the surface, found by scaling the traction at the start, damages the crack at the rates of the start, (5.41)
-// and (5.91), and the cracking strain is summed up, (5.9). First order; what is summed up may leave the surface.
+// and (5.91), and the cracking strain is summed up, (5.9). First order; what is summed up may leave the surface. The
+// next growth takes such a traction back, but never by more than the increment itself: a small one does not make it
+// jump.
 //
 // With n the unit vector of T_j/F_j on the surface, x_j = T_j/F_j of the trial traction and e_j = F_j/(C_j (1 - d_j)),
 //     dd = n.(x - n)/sum n_j^2 e_j (C_j + F_j')/Phi_j,   d delta_j = C_j e_j^2/Phi_j dd,
@@ -44,13 +46,14 @@ ExplicitStep<m, Real> SofteningCrack<isotropic>::explicit_step(Vector<Real, m> q
     }
 
     const auto grow = [&](int first, int last) {
-        Real start_square = zero, end_square = zero, along_square = zero, along = zero;
+        Real start_square = zero, end_square = zero, change_square = zero, along_square = zero, along = zero;
         Vector<Real, m> n = t;
         // A crack that closes is damaged by its shears alone.
         if (first == 0) n[0] = select(x[0] > zero, t[0], zero);
         for (int j = first; j <= last; ++j) {
             start_square = start_square + square(t[j]);
             end_square = end_square + square(x[j]);
+            change_square = change_square + square(x[j] - t[j]);
             along_square = along_square + square(n[j]);
             along = along + n[j] * x[j];
         }
@@ -61,7 +64,8 @@ ExplicitStep<m, Real> SofteningCrack<isotropic>::explicit_step(Vector<Real, m> q
         // Along the trial traction where there is none at the start, or another way.
         const Real size = sqrt(max(end_square, Real(1e-300))), start = sqrt(max(along_square, Real(1e-300)));
         const Mask<Real> from_start = along_square > Real(1e-12) && along > start;
-        const Real excess = select(from_start, along / start, size) - 1.0;
+        const Real beyond = select(from_start, along / start, size) - 1.0, limit = 2.0 * sqrt(change_square);
+        const Real excess = min(beyond, limit);
         Real D = zero;
         for (int j = first; j <= last; ++j) {
             const Real r = direction[j].brittleness;
@@ -96,7 +100,8 @@ ExplicitStep<m, Real> SofteningCrack<isotropic>::explicit_step(Vector<Real, m> q
         if constexpr (std::is_same_v<Real, double>) {
             for (int k = first; k <= last; ++k) {
                 const double turn = from_start ? 0.0 : growth / size, rate = follows[k] / e[k];
-                const double by_size = (n[k] - 2.0 * turn * n[k] * (weight[k] - D)) / D;
+                const double slope = beyond <= limit ? n[k] : 4.0 * (x[k] - t[k]) / limit;
+                const double by_size = (slope - 2.0 * turn * n[k] * (weight[k] - D)) / D;
                 for (int j = first; j <= last; ++j)
                     step.B[j][k] += rate * e[j] * (n[j] * by_size + turn * ((j == k ? 1.0 : 0.0) - n[j] * n[k]));
             }

@@ -418,6 +418,36 @@ TEST(IsoSoftening, TangentOfExplicitSteps) {
     EXPECT_GE(damaging, 100);
 }
 
+// METH = 1: a traction that large increments have left beyond the surface comes back by no more than the next
+// increment.
+TEST(IsoSoftening, ExplicitStepsAreContinuous) {
+    std::mt19937 random(8);
+    std::normal_distribution<double> normal;
+    int damaging = 0;
+    for (int surface = 0; surface < 3; ++surface)
+        for (int trial = 0; trial < 20; ++trial) {
+            Numbers props = base(2, 3, {double(surface), 1, 1, 0, 0, 0, 0, 0.01});
+            props.resize(27, 0.0);
+            props[26] = 1;
+            UmatPoint point = made(solid, props);
+            for (int i = 0; i < 4; ++i) {
+                Numbers d(6);
+                for (double& x : d) x = 4e-4 * normal(random);
+                if (i < 2) d[0] = 5e-4;
+                point.advance({.dstran = d});
+            }
+            if (point.state(STATE) != 1.0) continue;
+            Numbers tiny(6);
+            for (double& x : tiny) x = 1e-12 * normal(random);
+            const Answer answer = point.evaluate({.dstran = tiny});
+            damaging += answer.spd > point.spd();
+            for (std::size_t i = 0; i < 6; ++i)
+                EXPECT_NEAR(answer.stress[i], point.stress()[i], 100 * 24000 * 1e-12)
+                    << "SURF " << surface << " trial " << trial;
+        }
+    EXPECT_GE(damaging, 5);
+}
+
 // --- Energies ---------------------------------------------------------------------------------------------------
 
 struct LawCode {
