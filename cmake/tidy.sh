@@ -2,21 +2,36 @@
 # What clang 14 has to say: the warnings of its front end on every translation unit of a compilation database, and the
 # checks of clang-tidy on the entry points and the host.
 #   cmake/tidy.sh BUILD_DIRECTORY
-# The build has to be configured for clang, with warnings as errors and without precompiled headers; nothing in it needs
-# to have been built.
+# The build has to be configured for clang, with warnings as errors; nothing in it needs to have been built.
 set -eu
 cd "$(dirname "$0")/.."
-database=$1/compile_commands.json
+root=$(pwd)
+cd "$1"
+
+# run PATTERN [COMMAND OF SED]...: the commands of the database, unescaped, whose file matches.
+run() {
+    pattern=$1
+    shift
+    sed -n 's/^ *"command": "\(.*\)",$/\1/p' compile_commands.json | grep -E -e "$pattern" |
+        sed -e 's/\\\(.\)/\1/g' "$@" | tr '\n' '\0' | xargs -0 -P "$(nproc)" -I '{}' sh -c '{}'
+}
+# tidy SOURCES [OPTION]...: clang-tidy, which repeats the warnings of the front end.
+tidy() {
+    sources=$1
+    shift
+    (cd "$root" && git ls-files "$sources") | sed "s|^|$root/|" |
+        xargs -P "$(nproc)" -n 2 clang-tidy-14 -p . --quiet --warnings-as-errors='*' "$@" 2>/dev/null
+}
+
+echo "-- precompiled headers"
+sed -n 's/.* -o \([^ ]*\)\/cmake_pch\.hxx\.pch .*/\1/p' compile_commands.json | xargs mkdir -p
+run '\.hxx\.cxx$'
 
 echo "-- warnings of clang"
-# Each command of the database, unescaped, with the front end only.
-sed -n 's/^ *"command": "\(.*\)",$/\1/p' "$database" | grep '\.cpp$' |
-    sed -e 's/\\\(.\)/\1/g' -e 's/ -o [^ ]* -c / -fsyntax-only -c /' |
-    tr '\n' '\0' | xargs -0 -P "$(nproc)" -I '{}' sh -c '{}'
+run '\.cpp$' -e "\\# $root/\\(host\\|umat\\|fortran_shims\\)/[^ ]*\$#d" -e 's/ -o [^ ]* -c / -fsyntax-only -c /'
 
-echo "-- clang-tidy"
+echo "-- clang-tidy and warnings of the entry points and the host"
 # The analyzer is for what lives in other people's programs; it would take minutes on the host.
-git ls-files 'umat/*.cpp' 'fortran_shims/*.cpp' |
-    xargs -P "$(nproc)" -n 2 clang-tidy-14 -p "$1" --quiet --warnings-as-errors='*' 2>/dev/null
-git ls-files 'host/*.cpp' |
-    xargs -P "$(nproc)" -n 2 clang-tidy-14 -p "$1" --quiet --warnings-as-errors='*' --checks='-clang-analyzer-*' 2>/dev/null
+tidy 'umat/*.cpp'
+tidy 'fortran_shims/*.cpp'
+tidy 'host/*.cpp' --checks='-clang-analyzer-*'

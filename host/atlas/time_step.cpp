@@ -11,7 +11,7 @@ namespace {
 constexpr double relative_amplitude = 1e-6;  // of the strain scale
 constexpr double growth = 1000;              // an amplitude that has grown so much has no bound
 constexpr int oscillations = 2000;
-constexpr double resolution = 1e-5;
+constexpr double resolution = 1e-5, first_bracket = 1e-4;
 constexpr int rate_corrections = 2;
 constexpr double rate_dependence = 1e-5;
 
@@ -26,17 +26,20 @@ double limit_by_bisection(MaterialPoint& point, int component, double density, d
     const auto stable = [&](double step) {
         return oscillator_is_stable(point, component, density, length, amplitude, step, oscillations);
     };
-    double good = guess, bad = guess;
-    while (!stable(good)) {
-        good *= 0.5;
-        if (good < 1e-6 * guess) return 0;
-    }
-    if (good == guess)
-        while (stable(bad)) {
-            bad *= 2;
+    // Most limits are where the stiffness says: the bracket grows from there.
+    double good = guess, bad = guess, width = first_bracket;
+    const auto wider = [&] { return width = std::min(4 * width, 0.5); };
+    if (stable(guess)) {
+        for (bad *= 1 + width; stable(bad); bad *= 1 + wider()) {
+            good = bad;
             if (bad > 1e6 * guess) return HUGE_VAL;
         }
-    else bad = 2 * good;
+    } else {
+        for (good *= 1 - width; !stable(good); good *= 1 - wider()) {
+            bad = good;
+            if (good < 1e-6 * guess) return 0;
+        }
+    }
     while (bad - good > resolution * good) {
         const double middle = 0.5 * (good + bad);
         (stable(middle) ? good : bad) = middle;
