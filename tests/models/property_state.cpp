@@ -71,9 +71,15 @@ TEST_P(ZeroIncrement, ChangesNothingAndReturnsTheElasticTangent) {
                 // Where a rate-dependent law is above its yield stress at rest it may refuse to flow in no time.
                 if (!rate_independent && dtime == 0.0 && !unloading.done()) continue;
                 ASSERT_TRUE(unloading.done());
-                if (unloading.spd > point.spd() && !c.is_cohesive()) {
-                    // At a vertex of the yield surface the way back may lead along another part of it: unload by
-                    // compression.
+                // Tolerance: the elastic tangent varies by the relative size of the step; nonlinear laws by some tens
+                // of it.
+                const auto tangent_of_zero = [&] {
+                    return (zero.tangent - unloading.tangent).cwiseAbs().maxCoeff() <=
+                           100.0 * tiny * unloading.tangent.cwiseAbs().maxCoeff();
+                };
+                if (!c.is_cohesive() && (unloading.spd > point.spd() || !tangent_of_zero())) {
+                    // At a vertex of the yield surface the way back may lead along another part of it (what so small a
+                    // step dissipates may be lost to rounding): unload by compression.
                     Numbers compression(back.strain.size(), 0.0);
                     std::fill_n(compression.begin(), point.normals(), -tiny * largest(step.strain));
                     load_back.dstran = compression;
@@ -81,16 +87,12 @@ TEST_P(ZeroIncrement, ChangesNothingAndReturnsTheElasticTangent) {
                     unloading = point.evaluate(load_back);
                     ASSERT_TRUE(unloading.done());
                 }
-                // Tolerance: the elastic tangent varies by the relative size of the step; nonlinear laws by some tens
-                // of it.
                 if (c.has_trait(LODE_VISCOUS)) continue;
                 // A yield stress that falls with the rate is exceeded on the way back as well.
                 if (!rate_independent && unloading.spd > point.spd()) continue;
-                EXPECT_LE((zero.tangent - unloading.tangent).cwiseAbs().maxCoeff(),
-                          100.0 * tiny * unloading.tangent.cwiseAbs().maxCoeff())
-                    << "zero increment\n"
-                    << zero.tangent << "\nsmall step back\n"
-                    << unloading.tangent;
+                EXPECT_TRUE(tangent_of_zero()) << "zero increment\n"
+                                               << zero.tangent << "\nsmall step back\n"
+                                               << unloading.tangent;
             }
         }
     }
