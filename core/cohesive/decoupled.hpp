@@ -35,49 +35,72 @@ struct DecoupledInterface {
         const Real dt_old = max(state[index::dt], Real(shear.elastic_limit));
         const Mask<Real> failed_before = state[index::Dn] >= one && state[index::Dt] >= one;
 
+        // Which of the modes grow is as good as random: no branch hangs on it.
         // 1. largest opening and sliding so far
-        const Real opening = Path::opening(path.end), sliding = Path::sliding(path.end);
-        const Mask<Real> opens = opening > dn_old && !failed_before, slides = sliding > dt_old && !failed_before;
+        const auto& u = path.end;
         InterfaceResult<kind, Real> result;
-        result.dn = select(opens, opening, dn_old);
-        result.dt = select(slides, sliding, dt_old);
+        result.dn = max(dn_old, Path::opening(u));
+        result.dt = max(dt_old, Path::sliding(u));
+        if (any(failed_before)) [[unlikely]] {
+            result.dn = select(failed_before, dn_old, result.dn);
+            result.dt = select(failed_before, dt_old, result.dt);
+        }
         result.GI = released(normal, result.dn);
         result.GII = released(shear, result.dt);
         result.Gdrop = state[index::Gdrop];
 
         // 2. failure, at the point of the path where it happens
         result.failed = failed_before;
-        Mask<Real> fails = result.dn >= Real(normal.end) || result.dt >= Real(shear.end);
-        if (exponent_I > 0.0 && any(opens || slides))
-            fails = fails || ((opens || slides) && released_fraction(result.GI, result.GII) >= one);
-        fails = fails && !failed_before;
+        Mask<Real> fails = (result.dn >= Real(normal.end)) | (result.dt >= Real(shear.end));
+        if (exponent_I > 0.0) {
+            const Mask<Real> grows = (result.dn > dn_old) | (result.dt > dt_old);
+            fails = fails | (grows & (released_fraction(result.GI, result.GII) >= one));
+        }
         if (any(fails)) [[unlikely]] {
-            result = at_failure<kind, Real>(*this, path, dn_old, dt_old, fails, result);
+            fails = fails && !failed_before;
+            // The path made once more: that of the other points stays in registers.
+            if (any(fails))
+                result =
+                    at_failure<kind, Real>(*this, Path(increment, state, thickness), dn_old, dt_old, fails, result);
             result.failed = failed_before || fails;
         }
 
         // Damage below 1 marks an interface that has not failed, however small u_e/u_c is.
         const Real largest_damage(1.0 - 0.5 * std::numeric_limits<double>::epsilon());
         const Real intact_n = normal.integrity(result.dn), intact_t = shear.integrity(result.dt);
-        result.normal_damage = select(result.failed, one, min(1.0 - intact_n, largest_damage));
-        result.shear_damage = select(result.failed, one, min(1.0 - intact_t, largest_damage));
-        result.normal_stiffness = select(result.failed, zero, normal.stiffness * intact_n);
-        result.shear_stiffness = select(result.failed, zero, shear.stiffness * intact_t);
+        result.normal_damage = min(1.0 - intact_n, largest_damage);
+        result.shear_damage = min(1.0 - intact_t, largest_damage);
+        result.normal_stiffness = normal.stiffness * intact_n;
+        result.shear_stiffness = shear.stiffness * intact_t;
+        // 3. the slope is S' where damage grew, S/delta elsewhere
+        [[maybe_unused]] Real slope_n, slope_t;
+        if constexpr (wants_tangent<T>) {
+            slope_n = select(result.dn > dn_old, normal.slope(result.dn), result.normal_stiffness);
+            slope_t = select(result.dt > dt_old, shear.slope(result.dt), result.shear_stiffness);
+        }
+        if (any(result.failed)) [[unlikely]] {
+            result.normal_damage = select(result.failed, one, result.normal_damage);
+            result.shear_damage = select(result.failed, one, result.shear_damage);
+            result.normal_stiffness = select(result.failed, zero, result.normal_stiffness);
+            result.shear_stiffness = select(result.failed, zero, result.shear_stiffness);
+            if constexpr (wants_tangent<T>) slope_n = slope_t = zero;
+        }
         if (!result.finish(path, contact, inverse_thickness, point)) return;
 
         if constexpr (wants_tangent<T>) {
-            // 3. S' where damage grew, S/delta elsewhere; in shear along and across the direction of sliding
             constexpr int n = components(kind);
-            const auto& u = path.end;
-            const double secant = result.secant(u[0], contact);
-            for (int i = 0; i < n * n; ++i) tangent.stiffness[i] = 0.0;
-            tangent(0, 0) = thickness * (opens && !result.failed ? normal.slope(result.dn) : secant);
-            for (int i = 1; i < n; ++i) tangent(i, i) = thickness * result.shear_stiffness;
-            if (slides && !result.failed) {
-                const double change =
-                    thickness * (shear.slope(result.dt) - result.shear_stiffness) / (sliding * sliding);
-                for (int j = 1; j < n; ++j)
-                    for (int i = 1; i < n; ++i) tangent(i, j) += change * u[i] * u[j];
+            tangent(0, 0) = thickness * (u[0] < 0.0 ? contact.stiffness(result.normal_stiffness) : slope_n);
+            for (int i = 1; i < n; ++i) tangent(i, 0) = tangent(0, i) = 0.0;
+            if constexpr (n == 2) {
+                tangent(1, 1) = thickness * slope_t;
+            } else {
+                // in shear along and across the direction of sliding
+                const double across = thickness * result.shear_stiffness;
+                const double change = thickness * (slope_t - result.shear_stiffness) /
+                                      max(u[1] * u[1] + u[2] * u[2], std::numeric_limits<double>::min());
+                tangent(1, 1) = across + change * u[1] * u[1];
+                tangent(2, 2) = across + change * u[2] * u[2];
+                tangent(2, 1) = tangent(1, 2) = change * u[1] * u[2];
             }
         }
     }

@@ -46,16 +46,19 @@ constexpr lode_parameter constitutive_thickness() {
 // Normal traction for u_n < 0 (section 1.3).
 struct Contact {
     int option;
-    double penalty;
+    double penalty, damaged_share;  // T_n/u_n = penalty + damaged_share (1 - D_n) k_n
 
     Contact(int code, double k_comp, double initial_stiffness)
-        : option(code), penalty(k_comp > 0.0 ? k_comp : initial_stiffness) {}
+        : option(code),
+          penalty(code != 1      ? 0.0
+                  : k_comp > 0.0 ? k_comp
+                                 : initial_stiffness),
+          damaged_share(code == 2 ? 1.0 : 0.0) {}
 
     // T_n/u_n, which is its slope too; `damaged` is (1 - D_n) k_n.
     template <class Real>
     Real stiffness(const Real& damaged) const {
-        if (option == 2) return damaged;
-        return Real(option == 1 ? penalty : 0.0);
+        return penalty + damaged_share * damaged;
     }
 };
 
@@ -111,25 +114,52 @@ struct InterfaceResult {
     LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Contact& contact, double per_thickness,
                             Point<kind, Real>& point) const {
         constexpr int n = components(kind);
+        const auto &u = path.end, &du = path.change;
         Vector<Real, n> traction;
-        traction[0] = secant(path.end[0], contact) * path.end[0];
-        for (int i = 1; i < n; ++i) traction[i] = shear_stiffness * path.end[i];
-        return finish(path, traction, per_thickness, point);
+        traction[0] = secant(u[0], contact) * u[0];
+        for (int i = 1; i < n; ++i) traction[i] = shear_stiffness * u[i];
+        // The shear stiffness comes last: all else is ready by then.
+        Real before = point.stress[0] * du[0], along = u[1] * du[1], square_sum = u[1] * u[1];
+        for (int i = 1; i < n; ++i) before = before + point.stress[i] * du[i];
+        for (int i = 2; i < n; ++i) along = along + u[i] * du[i], square_sum = square_sum + u[i] * u[i];
+        Real work = (before + traction[0] * du[0]) + shear_stiffness * along;
+        Real stored = traction[0] * u[0] + shear_stiffness * square_sum;
+        // Squares can overflow where tractions, which may be zero, do not.
+        const Mask<Real> usual = is_finite(work + stored);
+        if (!all(usual)) [[unlikely]] {
+            Real plain_work, plain_stored;
+            sum_work(path, traction, point, plain_work, plain_stored);
+            work = select(usual, work, plain_work);
+            stored = select(usual, stored, plain_stored);
+        }
+        return finish(path, traction, work, stored, per_thickness, point);
     }
     // The same with tractions that do not follow from the stiffnesses.
     LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Vector<Real, components(kind)>& traction,
                             double per_thickness, Point<kind, Real>& point) const {
+        Real work, stored;
+        sum_work(path, traction, point, work, stored);
+        return finish(path, traction, work, stored, per_thickness, point);
+    }
+
+    // (T_old + T).du and T.u
+    static void sum_work(const SeparationPath<kind, Real>& path, const Vector<Real, components(kind)>& traction,
+                         const Point<kind, Real>& point, Real& work, Real& stored) {
+        work = stored = Real(0.0);
+        for (int i = 0; i < components(kind); ++i) {
+            work = work + (point.stress[i] + traction[i]) * path.change[i];
+            stored = stored + traction[i] * path.end[i];
+        }
+    }
+    LODE_INLINE bool finish(const SeparationPath<kind, Real>& path, const Vector<Real, components(kind)>& traction,
+                            const Real& work, const Real& stored, double per_thickness,
+                            Point<kind, Real>& point) const {
         namespace index = interface_state;
         constexpr int n = components(kind);
         State<Real>& state = point.state;
         const Real released_before = state[index::GI] + state[index::GII] + state[index::Gdrop];
         const Real work_before = state[index::W];
 
-        Real work = Real(0.0), stored = Real(0.0);
-        for (int i = 0; i < n; ++i) {
-            work = work + (point.stress[i] + traction[i]) * path.change[i];
-            stored = stored + traction[i] * path.end[i];
-        }
         const Mask<Real> sound = is_finite(work + stored);
         if (!all(sound)) [[unlikely]] {
             point.fail(!sound, "the separation is out of range");
