@@ -182,15 +182,17 @@ struct MooneyRivlin {
         }
 
         // J sigma = G1 c^-2 dev b + G2 c^-4 [(1 + tr b) dev b - dev b^2] + J U' I,   c = cbrt J
+        const Real inverse2 = square(reciprocal_cbrt(k.j, k.jacobian)), c = k.jacobian * inverse2;  // J^(-2/3)
         const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
-        const Real inverse2 = square(reciprocal_cbrt(v.J)), c = v.J * inverse2;  // J^(-2/3)
         const Real mean = dilatation.derivative(v);
         const Real g1 = shear1 * inverse2 * v.inverse, g2 = shear2 * inverse2 * inverse2 * v.inverse;
-        Stress<with_thickness(kind), Real> stress, second;  // I1 B - B^2 = (2 + tr b) I + second
-        assign(stress, g1 * k.b);
+        Stress<with_thickness(kind), Real> first, second, stress;
+        assign(first, g1 * k.b);
+        assign(stress, first);
         if constexpr (has_second) {
-            assign(second, (1.0 + trace(k.b)) * k.b - square_of(k.b));
-            stress += g2 * second;
+            // I1 B - B^2 = (2 + tr b) I + (1 + tr b) b - b^2
+            assign(second, g2 * ((1.0 + trace(k.b)) * k.b - square_of(k.b)));
+            stress += second;
         }
         add_to_normals(stress, 3, mean - trace(stress) * (1.0 / 3.0));
 
@@ -202,41 +204,45 @@ struct MooneyRivlin {
         point.elastic_energy = energy;
 
         if constexpr (wants_tangent<T>) {
+            // `first` and `second` become P = G1 Bbar/J and Q = G2 m/J.
+            add_to_normals(first, 3, g1);
+            if constexpr (has_second) add_to_normals(second, 3, g2 * (2.0 + trace(k.b)));
+            const double volumetric = dilatation.stiffness(v), alpha = residual.thermal_expansion;
             set_tangent_of_kind<kind>(
-                tangent, point.stress, residual.thermal_expansion != 0.0,
-                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent<has_second>(k, v, inverse2, second, full); },
-                [&](const auto& full) { return isotropic_thermal_stress(residual.thermal_expansion, full, stress); });
+                tangent, point.stress, alpha != 0.0,
+                [&](auto& full) LODE_INLINE_LAMBDA { set_tangent<has_second>(first, second, volumetric, full); },
+                [&](const auto&) {
+                    // -alpha (C : 1 - 3 sigma), and Bbar does not change with the volume: C : 1 = 3 (J U')' 1
+                    Stress<with_thickness(kind), double> thermal;
+                    assign(thermal, (3.0 * alpha) * stress);
+                    add_to_normals(thermal, 3, -3.0 * alpha * volumetric);
+                    return thermal;
+                });
         }
 
         residual.store(point, k, e);
     }
 
-    // Section 2.3, with m = I1bar Bbar - Bbar^2:
-    //     J C = M(G1 Bbar + G2 m) - (2/3) [(G1 Bbar + 2 G2 m) (x) 1 + 1 (x) (...)]
-    //         + [2/9 (G1 I1bar + 4 G2 I2bar) + J (J U')'] 1 (x) 1 + 2 G2 [Bbar (x) Bbar - (D -> Bbar D Bbar)]
-    template <bool has_second, AnalysisKind kind, AnalysisKind full>
-    LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v, double inverse2,
-                                 const Stress<full, double>& second, Tangent<full>& c) const {
-        Stress<full, double> b, stretching, coupling;  // Bbar
-        for (int i = 0; i < 3; ++i) b[i] = inverse2 * (1.0 + k.b[i]);
-        for (int i = 3; i < components(full); ++i) b[i] = inverse2 * k.b[i];
-        const double i1 = trace(b), g1 = shear1 * v.inverse, g2 = shear2 * v.inverse;
-        assign(stretching, g1 * b);
-        assign(coupling, (-2.0 / 3.0 * g1) * b);
-        const double volumetric = 2.0 / 9.0 * g1 * i1 + dilatation.stiffness(v);
+    // Section 2.3, with m = I1bar Bbar - Bbar^2, P = G1 Bbar and Q = G2 m, both over J:
+    //     C = M(P + Q) - (2/3) [(P + 2 Q) (x) 1 + 1 (x) (P + 2 Q)] + [2/9 (tr P + 2 tr Q) + (J U')'] 1 (x) 1
+    //         + 2 G2/J [Bbar (x) Bbar - (D -> Bbar D Bbar)],
+    // where cof Bbar = I2bar I - m (Cayley and Hamilton), 2 I2bar = tr m.
+    template <bool has_second, AnalysisKind full>
+    LODE_INLINE static void set_tangent(const Stress<full, double>& P, const Stress<full, double>& Q, double volumetric,
+                                        Tangent<full>& c) {
+        Stress<full, double> coupling;
         if constexpr (has_second) {
-            const double inverse4 = square(inverse2), normal = 2.0 + trace(k.b);
-            Stress<full, double> m, cofactors;
-            for (int i = 0; i < 3; ++i) m[i] = inverse4 * (normal + second[i]);
-            for (int i = 3; i < components(full); ++i) m[i] = inverse4 * second[i];
-            const double twice_i2 = trace(m);
-            assign(cofactors, (-2.0 * g2) * m);  // cof Bbar = I2bar I - m (Cayley and Hamilton)
-            add_to_normals(cofactors, 3, g2 * twice_i2);
-            stretching += g2 * m;
-            coupling += (-4.0 / 3.0 * g2) * m;
-            set_coupled_tangent(c, stretching, volumetric + 4.0 / 9.0 * g2 * twice_i2, coupling, cofactors);
+            Stress<full, double> stretching, cofactors;
+            assign(stretching, P + Q);
+            assign(coupling, (-2.0 / 3.0) * (stretching + Q));
+            assign(cofactors, -2.0 * Q);
+            const double trace_Q = trace(Q);
+            add_to_normals(cofactors, 3, trace_Q);
+            set_coupled_tangent(c, stretching, volumetric + 2.0 / 9.0 * (trace(P) + 2.0 * trace_Q), coupling,
+                                cofactors);
         } else {
-            set_coupled_tangent(c, stretching, volumetric, coupling, 0.0);
+            assign(coupling, (-2.0 / 3.0) * P);
+            set_coupled_tangent(c, P, volumetric + 2.0 / 9.0 * trace(P), coupling, 0.0);
         }
     }
 };

@@ -101,7 +101,7 @@ struct NeoHookean {
         // sigma = (G/J) b + U' I (9.59)
         const VolumeRatio<Real> v = dilatation.volume_ratio(k.j, k.jacobian);
         const Real g = shear * v.inverse, mean = dilatation.derivative(v);
-        auto stress = g * k.b;
+        auto stretching = g * k.b, stress = stretching;
         add_to_normals(stress, 3, mean);
         // W/J, in which I1 - 3 - 2 ln J = (I1 - 3 - 2 j) + 2 (j - ln J)
         const Real isochoric = 0.5 * first_invariant_excess<kind>(k.h) + v.excess_over_log();
@@ -113,7 +113,10 @@ struct NeoHookean {
         for (int i = normals; i < components(kind); ++i) point.stress[i] = stress[i + 3 - normals];
         point.elastic_energy = energy;
 
-        if constexpr (wants_tangent<T>) set_tangent<kind>(k, v, point.stress, tangent);
+        if constexpr (wants_tangent<T>) {
+            add_to_normals(stretching, 3, g);
+            set_tangent<kind>(stretching, dilatation.stiffness(v), point.stress, tangent);
+        }
 
         residual.store(point, k, e);
     }
@@ -124,35 +127,30 @@ struct NeoHookean {
     ResidualStrain residual;
 
   private:
-    // C = (G/J) M(B) + (J U')' 1 (x) 1, and its companion for temperature (1.8).
+    // C = M(A) + (J U')' 1 (x) 1 with A = (G/J) B, and its companion for temperature (1.8).
     template <AnalysisKind kind>
-    LODE_INLINE void set_tangent(const Kinematics<kind, double>& k, const VolumeRatio<double>& v,
+    LODE_INLINE void set_tangent(const Stress<with_thickness(kind), double>& a, double volumetric,
                                  const Stress<kind, double>& stress, Tangent<kind>& tangent) const {
         constexpr int normals = normal_components(kind);
-        const double g = shear * v.inverse;
-        auto left_cauchy_green = k.b;
-        add_to_normals(left_cauchy_green, 3, 1.0);
-
-        const double volumetric = dilatation.stiffness(v);
         double condensed = volumetric;
         if constexpr (kind == AnalysisKind::plane_stress) {
             // C_ab - C_a3 C_3b/C_33 with C_a3 = volumetric in the normal components, zero in shear
-            const double thickness = 2.0 * g * left_cauchy_green[2];
+            const double thickness = 2.0 * a[2];
             condensed = volumetric * thickness / (thickness + volumetric);
         }
-        set_stretching_tangent(tangent, g, left_cauchy_green, condensed);
+        set_stretching_tangent(tangent, 1.0, a, condensed);
 
         const double alpha = residual.thermal_expansion;
         if (alpha == 0.0) return;
-        // -alpha (C : 1 - 3 sigma), in which C : 1 = 2 g B + 3 volumetric 1
+        // -alpha (C : 1 - 3 sigma), in which C : 1 = 2 A + 3 volumetric 1
         const auto thermal = [&](int i, double sigma) {
-            return -alpha * (2.0 * g * left_cauchy_green[i] + 3.0 * volumetric - 3.0 * sigma);
+            return -alpha * (2.0 * a[i] + 3.0 * volumetric - 3.0 * sigma);
         };
         for (int i = 0; i < normals; ++i) tangent.thermal_stress[i] = thermal(i, stress[i]);
         for (int i = normals; i < components(kind); ++i) tangent.thermal_stress[i] = alpha * stress[i];
         if constexpr (kind == AnalysisKind::plane_stress) {
             // the thickness follows so that the stress 33 stays zero
-            const double stretching = -thermal(2, 0.0) / (2.0 * g * left_cauchy_green[2] + volumetric);
+            const double stretching = -thermal(2, 0.0) / (2.0 * a[2] + volumetric);
             for (int i = 0; i < 2; ++i) tangent.thermal_stress[i] += (volumetric - stress[i]) * stretching;
             tangent.thermal_stress[2] -= stress[2] * stretching;
         }

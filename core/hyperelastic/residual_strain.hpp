@@ -109,7 +109,7 @@ template <AnalysisKind kind, class Real>
 inline Real first_invariant_excess(const Matrix3<Real>& h) {
     const auto square_of_row = [&h](int i) { return h(i, 0) * h(i, 0) + h(i, 1) * h(i, 1) + h(i, 2) * h(i, 2); };
     if constexpr (kind == AnalysisKind::solid) {
-        return square_of_row(0) + square_of_row(1) + square_of_row(2) - 2.0 * (second_invariant(h) + determinant(h));
+        return square_of_row(0) + square_of_row(1) + square_of_row(2) - 2.0 * minors_and_determinant(h);
     } else {
         const Real squares = h(0, 0) * h(0, 0) + h(0, 1) * h(0, 1) + h(1, 0) * h(1, 0) + h(1, 1) * h(1, 1);
         const Real minor = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);

@@ -42,10 +42,19 @@ inline Real plane_jacobian_minus_one(const Matrix3<Real>& h) {
     return (h(0, 0) + h(1, 1)) + (h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0));
 }
 
+// The sum of the principal minors and the determinant of H, in an order that lets most of it run in parallel: the whole
+// stress waits for it.
+template <class Real>
+inline Real minors_and_determinant(const Matrix3<Real>& h) {
+    const Real m01 = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0), m02 = h(0, 0) * h(2, 2) - h(0, 2) * h(2, 0);
+    const Real m12 = h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);
+    const Real c01 = h(1, 0) * h(2, 2) - h(1, 2) * h(2, 0), c02 = h(1, 0) * h(2, 1) - h(1, 1) * h(2, 0);
+    return ((m01 + m02) + (m12 + h(0, 0) * m12)) + (h(0, 2) * c02 - h(0, 1) * c01);
+}
 // J - 1 = det(I + H) - 1 = tr H + (sum of principal minors) + det H. Plane kinds: from the in-plane part and H33.
 template <AnalysisKind kind = AnalysisKind::solid, class Real>
 inline Real jacobian_minus_one(const Matrix3<Real>& h) {
-    if constexpr (kind == AnalysisKind::solid) return trace(h) + (second_invariant(h) + determinant(h));
+    if constexpr (kind == AnalysisKind::solid) return trace(h) + minors_and_determinant(h);
     else {
         const Real q = plane_jacobian_minus_one(h);
         return q + h(2, 2) + q * h(2, 2);
@@ -129,9 +138,11 @@ LODE_INLINE Kinematics<kind, Real> kinematics(const Matrix3<Real>& f, const Real
                                               bool is_absent = false) {
     Matrix3<Real> h = displacement_gradient<kind>(f);
     Real determinant_of_f = jacobian<kind>(f);
-    if (!is_absent) {
+    if (!is_absent) [[unlikely]] {
         const Real free = quick_expm1(-residual_strain), shrink = 1.0 + free;
-        h = gradient_without(free, h);
+        // gradient_without() in place: a second matrix would put both into memory
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) h(i, j) = i == j ? shrink * h(i, j) + free : shrink * h(i, j);
         determinant_of_f = determinant_of_f * (shrink * shrink);
         if constexpr (kind == AnalysisKind::plane_stress) h(2, 2) = Real(0.0);
         else determinant_of_f = determinant_of_f * shrink;

@@ -226,7 +226,17 @@ TEST(ReciprocalCbrt, IsWithinTwoUlpFromTheSmallestNormalNumberToTheLargest) {
             const double ulp = std::nextafter(exact, 2.0 * exact) - exact;
             EXPECT_NEAR(reciprocal_cbrt(x), exact, 2.0 * ulp) << x;
             EXPECT_NEAR(reciprocal_cbrt(Batch(x)).get(0), exact, 2.0 * ulp) << x;
+            EXPECT_NEAR(reciprocal_cbrt(x - 1.0, x), exact, 2.0 * ulp) << x;
+            EXPECT_NEAR(reciprocal_cbrt(Batch(x - 1.0), Batch(x)).get(0), exact, 2.0 * ulp) << x;
         }
+}
+TEST(ReciprocalCbrt, NearOneIsWithinTwoUlp) {
+    for (int i = 0; i <= 30000; ++i) {
+        const double x = 0.5 + 1.5 * i / 30000.0;
+        const double exact = static_cast<double>(1.0L / std::cbrt(static_cast<long double>(x)));
+        const double ulp = std::nextafter(exact, 2.0 * exact) - exact;
+        EXPECT_NEAR(reciprocal_cbrt(x - 1.0, x), exact, 2.0 * ulp) << x;
+    }
 }
 
 }  // namespace
