@@ -30,20 +30,21 @@ struct CamClayCurve {
           inverse_M_square(1.0 / (slope * slope)),
           strain_per_stress(elastic.alpha == 0.0 ? slope / (3.0 * elastic.mu0) : 0.0) {}
 
-    // A point of the curve f = 0, R there, and their slopes in zeta = sqrt(delta) (steps 5 to 7).
+    // A point of the curve f = 0, R there, and slopes in zeta = sqrt(delta) (steps 5 to 7).
     template <class Real>
     struct CurvePoint {
         Real zeta, A, r, s, h, residual, slope;
-        Real A_slope, r_slope, s_slope;
+        Real s_slope, h_rate;  // h_rate: dh/d delta
 
-        // A point nearby, to first order.
-        CurvePoint moved_to(const Real& target) const {
+        // A point nearby to second order: the exponentials by their series, s by the change of its slope.
+        CurvePoint moved_to(const Real& target, double inverse_kappa, double w, const Real& s_curvature) const {
             CurvePoint x = *this;
-            const Real step = target - zeta;
+            const Real step = target - zeta, delta_step = step * (zeta + target);
+            const Real a = inverse_kappa * delta_step, b = w * delta_step;
             x.zeta = target;
-            x.A = A + A_slope * step;
-            x.r = r + r_slope * step;
-            x.s = s + s_slope * step;
+            x.A = A - A * (a - 0.5 * (a * a));
+            x.r = r + (1.0 + r) * (b + 0.5 * (b * b));
+            x.s = s + step * (s_slope + 0.5 * (step * s_curvature));
             return x;
         }
         void assign(const Mask<Real>& where, const CurvePoint& x) {
@@ -77,27 +78,42 @@ struct CamClayCurve {
             const Real far_end = elasticity.alpha > 0.0 ? Real(2.0) * (zeta_top + zeta_half) : zeta_half;
             const Real upper = select(dilatant, zeta_top, far_end);
 
-            // Large steps can have more than one root. So that the answer does not hang on rounding errors, Newton's
+            // Halley's method with the second derivative of the cubic through the last two points, which costs next to
+            // nothing: of order 2.7. At the start it is what the change of h makes of it, most of the whole.
+            // Large steps can have more than one root. So that the answer does not hang on rounding errors, the
             // iterates must halve the residual (but for the first one, which often overshoots).
             CurvePoint<Real> root = at;
             Mask<Real> found = !active, lost = Mask<Real>(false);
-            Real before = Real(std::numeric_limits<double>::infinity());
+            Real before = Real(std::numeric_limits<double>::infinity()), last_change = before;
+            Real curvature = -2.0 * (s_trial - at.s) * at.h_rate, s_curvature(0.0);
             for (int iteration = 1; iteration <= most_newton_steps; ++iteration) {
-                const Real R = abs(at.residual), step = at.residual / at.slope, size = abs(step);
+                const Real R = abs(at.residual), square_slope = at.slope * at.slope;
                 const Mask<Real> sound = at.slope > Real(0.0) && R <= 0.5 * before;
                 lost = lost || !sound;
-                // What this step leaves, and what first order leaves of the exponentials, is of the order of its
-                // square.
-                const Mask<Real> close = size <= 1e-8 * at.zeta && (w * at.zeta) * size <= Real(1e-8);
-                const Real newton = at.zeta - step;
+                const Real step =
+                    at.residual * at.slope / max(square_slope - 0.5 * (at.residual * curvature), 0.5 * square_slope);
+                const Real size = abs(step), target = at.zeta - step;
+                // What this step leaves is a small part of its square times that of the last one, the series of the
+                // exponentials leave its cube.
+                const Real square_zeta = at.zeta * at.zeta;
+                const Mask<Real> small = size <= 1e-8 * at.zeta || size * last_change <= 1e-7 * square_zeta;
+                const Mask<Real> close = small && (w * at.zeta) * size <= Real(3e-6);
                 const Mask<Real> now = close && !lost && !found;
-                root.assign(now, at.moved_to(newton));
+                root.assign(now, at.moved_to(target, elasticity.inverse_kappa, w, s_curvature));
                 found = found || now;
                 if (all(found || lost)) break;
                 if (iteration > 1) before = R;
-                Real next = select(newton > upper, 0.5 * (at.zeta + upper), newton);
-                next = select(newton < lower, 0.5 * (at.zeta + lower), next);
+                Real next = select(target > upper, 0.5 * (at.zeta + upper), target);
+                next = select(target < lower, 0.5 * (at.zeta + lower), next);
+                const Real change = next - at.zeta, inverse_change = 1.0 / change;
+                const CurvePoint<Real> last = at;
                 at = curve_point(next, v_max, over, s_trial);
+                last_change = abs(change);
+                const auto bend = [&inverse_change](const Real& rise, const Real& slope, const Real& slope_before) {
+                    return inverse_change * (4.0 * slope + 2.0 * slope_before - 6.0 * (inverse_change * rise));
+                };
+                curvature = bend(at.residual - last.residual, at.slope, last.slope);
+                s_curvature = bend(at.s - last.s, at.s_slope, last.s_slope);
             }
             const Mask<Real> wrong = active && !(found && root.s <= (1.0 + 1e-13) * s_trial);
             if (any(wrong)) [[unlikely]] {
@@ -124,14 +140,12 @@ struct CamClayCurve {
         at.zeta = zeta;
         at.A = A;
         at.r = r;
-        at.A_slope = -inverse_kappa * (twice_zeta * A);
-        at.r_slope = w * (twice_zeta * pc_ratio);
-        Real h_rate;  // dh/d delta
+        const Real A_slope = -inverse_kappa * (twice_zeta * A);
         if (alpha == 0.0) {
             at.s = strain_per_stress * A * sqrt(r);
-            at.s_slope = at.s * (0.5 * at.r_slope / r - inverse_kappa * twice_zeta);
+            at.s_slope = at.s * (w * zeta * pc_ratio / r - inverse_kappa * twice_zeta);
             at.h = A * (1.0 - r);
-            h_rate = -A * (2.0 * inverse_kappa + inverse_theta * pc_ratio);
+            at.h_rate = -A * (2.0 * inverse_kappa + inverse_theta * pc_ratio);
         } else {
             const Real inverse_mu = 1.0 / mu;
             const Real a = (M / 3.0) * A * inverse_mu;
@@ -149,12 +163,12 @@ struct CamClayCurve {
             const Real mu0_share = (4.0 * elasticity.mu0 * inverse_kappa) * inverse_mu;
             const Real rate = ((1.0 + z) * (w * pc_ratio) * sum - mu0_share * r) * (0.5 * inverse_rE);
             at.s_slope = at.s * rate * zeta;
-            h_rate = A * (2.0 * z * rate - (2.0 * inverse_kappa) * (1.0 + z) - inverse_theta * pc_ratio);
+            at.h_rate = A * (2.0 * z * rate - (2.0 * inverse_kappa) * (1.0 + z) - inverse_theta * pc_ratio);
         }
         const Real missing = s_trial - at.s;
         at.residual = flow_factor * mu * at.s * compaction - missing * at.h;
-        at.slope = flow_factor * (compaction * (alpha * at.A_slope * at.s + mu * at.s_slope) + twice_zeta * mu * at.s) +
-                   at.h * at.s_slope - twice_zeta * missing * h_rate;
+        at.slope = flow_factor * (compaction * (alpha * A_slope * at.s + mu * at.s_slope) + twice_zeta * mu * at.s) +
+                   at.h * at.s_slope - twice_zeta * missing * at.h_rate;
         return at;
     }
     // Roots have r far below the limit; beyond it only the signs matter.
