@@ -14,14 +14,14 @@ class PressureLaw {
     PressureLaw(int number, double bulk_modulus) : number_(number), energy_{number - 1, bulk_modulus} {}
 
     bool is_linear() const { return number_ == 0; }
-    // -P has its extreme at Js = e.
     bool is_logarithmic() const { return number_ == 3; }
 
     // Js from J and Jres less one.
     template <class Real>
     LODE_INLINE VolumeRatio<Real> ratio(const Real& j, const Real& res) const {
-        const Real J = 1.0 + j, Jres = 1.0 + res, both = 1.0 / (J * Jres), inverse = J * both;
-        return energy_.volume_ratio((j - res) * inverse, J * inverse, (Jres * Jres) * both);
+        VolumeRatio<Real> Js = unlogged_ratio(j, res);
+        if (is_logarithmic()) Js.ln = Js.logarithm();
+        return Js;
     }
     // -P and its derivative by ln J.
     template <class Real>
@@ -32,17 +32,55 @@ class PressureLaw {
     LODE_INLINE Real modulus(const VolumeRatio<Real>& Js) const {
         return energy_.stiffness(Js) - energy_.derivative(Js);
     }
-    // int -P d ln J: what the pressure stores of the work that is measured like s : de.
+
+    // An increment in which ln Js grows by `growth`.
     template <class Real>
-    LODE_INLINE Real stored(const VolumeRatio<Real>& Js) const {
-        if (number_ == 1) return 0.5 * energy_.modulus * (square(Js.j) * Js.inverse);
-        const Real excess = energy_.modulus * Js.excess_over_log();
-        return number_ == 2 ? excess : excess * Js.inverse;
+    struct Change {
+        Real before, after;  // -P
+        Real slope;          // of `after` by ln J
+        Real stored;         // int -P d ln J: what the pressure stores of the work that is measured like s : de
+        Mask<Real> positive, stiff;
+    };
+    template <class Real>
+    LODE_INLINE Change<Real> change(const Real& j0, const Real& res0, const Real& j1, const Real& res1,
+                                    const Real& growth) const {
+        const VolumeRatio<Real> old = unlogged_ratio(j0, res0), now = unlogged_ratio(j1, res1);
+        if (number_ == 1) return change_of<1>(old, now, growth);
+        return number_ == 2 ? change_of<2>(old, now, growth) : change_of<3>(old, now, growth);
     }
 
   private:
     int number_ = 0;
     DilatationalEnergy energy_;
+
+    template <class Real>
+    LODE_INLINE static VolumeRatio<Real> unlogged_ratio(const Real& j, const Real& res) {
+        const Real J = 1.0 + j, Jres = 1.0 + res, both = 1.0 / (J * Jres), inverse = J * both;
+        return VolumeRatio<Real>((j - res) * inverse, J * inverse, (Jres * Jres) * both);
+    }
+    template <int law, class Real>
+    LODE_INLINE Change<Real> change_of(VolumeRatio<Real> old, VolumeRatio<Real> now, const Real& growth) const {
+        const DilatationalEnergy energy{law - 1, energy_.modulus};
+        Change<Real> r;
+        if constexpr (law == 1) {
+            r.stored = 0.5 * energy.modulus * (square(now.j) * now.inverse);
+        } else {
+            // One series serves both logarithms.
+            r.stored = energy.modulus * now.excess_over_log();
+            if constexpr (law == 3) {
+                now.ln = now.logarithm();
+                old.ln = now.ln - growth;
+                r.stored = r.stored * now.inverse;
+            }
+        }
+        r.before = energy.derivative(old);
+        r.after = energy.derivative(now);
+        r.slope = energy.stiffness(now) - r.after;
+        r.positive = now.J > Real(0.0);
+        r.stiff = Mask<Real>(true);
+        if constexpr (law == 3) r.stiff = now.ln < Real(1.0);  // -P has its extreme at Js = e
+        return r;
+    }
 };
 
 // J - 1 after a logarithmic volume strain `growth`.

@@ -123,25 +123,38 @@ struct PronyStep {
             for (int k = 0; k < series.count; ++k)
                 set(k, series.G(k), ElementStep(recursion, dtr * series.inverse_time[static_cast<std::size_t>(k)]));
         } else {
-            // One vector of elements at a time.
-            Batch driven_lanes(0.0), dissipated_lanes(0.0);
-            for (int k = 0; k < series.count; k += batch_lanes) {
-                const Batch G = Batch::load_aligned(series.modulus.data() + k);
-                const ElementStep s(recursion, dtr * Batch::load_aligned(series.inverse_time.data() + k));
-                s.u.store_unaligned(u + k);
-                s.A.store_unaligned(A + k);
-                if (recursion == Recursion::trapezoidal) s.B.store_unaligned(B + k);
-                (G * s.a11).store_unaligned(a11 + k);
-                (G * s.twice_a12).store_unaligned(twice_a12 + k);
-                driven_lanes = driven_lanes + G * s.A;
-                dissipated_lanes = dissipated_lanes + G * s.a22;
-            }
-            driven = xsimd::hadd(driven_lanes);
-            dissipated = xsimd::hadd(dissipated_lanes);
+            // One vector of elements at a time. Nearly all series fill no more than the first one: what a loop would
+            // set up is then more than what it does.
+            if (series.count == 0) return;
+            Sums sums{Batch(0.0), Batch(0.0)};
+            add(series, recursion, dtr, 0, sums);
+            if (series.count > batch_lanes) [[unlikely]]
+                sums = add_rest(series, recursion, dtr, sums);
+            driven = xsimd::hadd(sums.driven);
+            dissipated = xsimd::hadd(sums.dissipated);
         }
     }
 
   private:
+    struct Sums {
+        Batch driven, dissipated;
+    };
+    LODE_INLINE void add(const PronySeries& series, Recursion recursion, double dtr, int k, Sums& sums) {
+        const Batch G = Batch::load_aligned(series.modulus.data() + k);
+        const ElementStep s(recursion, dtr * Batch::load_aligned(series.inverse_time.data() + k));
+        s.u.store_unaligned(u + k);
+        s.A.store_unaligned(A + k);
+        if (recursion == Recursion::trapezoidal) s.B.store_unaligned(B + k);
+        (G * s.a11).store_unaligned(a11 + k);
+        (G * s.twice_a12).store_unaligned(twice_a12 + k);
+        sums.driven = sums.driven + G * s.A;
+        sums.dissipated = sums.dissipated + G * s.a22;
+    }
+    [[gnu::noinline]] Sums add_rest(const PronySeries& series, Recursion recursion, double dtr, Sums sums) {
+        for (int k = batch_lanes; k < series.count; k += batch_lanes) add(series, recursion, dtr, k, sums);
+        return sums;
+    }
+
     LODE_INLINE void set(int k, double G, const ElementStep& s) {
         u[k] = s.u, A[k] = s.A, B[k] = s.B;
         a11[k] = G * s.a11, twice_a12[k] = G * s.twice_a12;

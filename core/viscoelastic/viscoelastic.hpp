@@ -182,7 +182,7 @@ class Update {
         Volume<Real> volume{Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
         if (!is_linear) {
             volume.j0 = old[JM1], volume.res0 = old[JRESM1];
-            volume.res1 = c.expands() ? grown(volume.res0, 3.0 * free_strain) : volume.res0;
+            volume.res1 = expands_now(free_strain) ? grown(volume.res0, 3.0 * free_strain) : volume.res0;
         }
         if constexpr (has_lateral) {
             Mask<Real> solved(true);
@@ -199,46 +199,52 @@ class Update {
         Real pressure_old(0.0), pressure(0.0), pressure_slope(0.0), volume_energy(0.0);
         if (!is_linear) {
             volume.j1 = grown(volume.j0, stretching);
-            const VolumeRatio<Real> Js = c.pressure.ratio(volume.j1, volume.res1);
-            pressure_old = c.pressure.tension(c.pressure.ratio(volume.j0, volume.res0));
-            pressure = c.pressure.tension(Js);
-            pressure_slope = c.pressure.modulus(Js);
-            volume_energy = c.pressure.stored(Js);
-            const Mask<Real> sound = Js.J > Real(0.0) && is_finite(pressure + pressure_slope + volume_energy);
+            const auto p = c.pressure.change(volume.j0, volume.res0, volume.j1, volume.res1, dV);
+            pressure_old = p.before;
+            pressure = p.after;
+            pressure_slope = p.slope;
+            volume_energy = p.stored;
+            const Mask<Real> sound = p.positive && is_finite(pressure + pressure_slope + volume_energy);
             if (!all(sound)) [[unlikely]]
                 return point.fail(!sound, "the volume ratio left the range of numbers");
-            if (c.pressure.is_logarithmic()) {
-                const Mask<Real> stiff = Js.ln < Real(1.0);
-                if (!all(stiff)) [[unlikely]]
-                    return point.fail(!stiff, "PLAW = 3 has no stiffness where J/Jres >= e", 0.5);
-            }
+            if (!all(p.stiff)) [[unlikely]]
+                return point.fail(!p.stiff, "PLAW = 3 has no stiffness where J/Jres >= e", 0.5);
         }
 
         // Shear elements: the stress they lose by relaxation, what they dissipate, and (b != 1) what they carried.
         Tensor<kind, Real> relaxed, carried;
-        for (int i = 0; i < n; ++i) relaxed[i] = Real(0.0), carried[i] = c.G0 * e0[i];
-        Real dissipated = 2.0 * step.shear.dissipated * contraction(de, de);
-        Real stored = c.G0 * contraction(e0 + de, e0 + de);
-        for (int k = 0; k < elements; ++k) {
-            const double Gk = c.shear.G(k);
-            const X u = step.shear.u[k], A = step.shear.A[k], E = 1.0 - u, Gu = Gk * u;
-            const int first = FIRST_ELEMENT + 6 * k;
-            Tensor<kind, Real> b, b_new;
-            for (int i = 0; i < n; ++i) b[i] = old[first + i];
-            for (int i = 0; i < n; ++i) b_new[i] = E * b[i] + A * de[i];
-            for (int i = 0; i < n; ++i) relaxed[i] = relaxed[i] + Gu * b[i];
-            if (trapezoidal) {
-                const X B = step.shear.B[k], GB = Gk * B;
-                for (int i = 0; i < n; ++i) b_new[i] = b_new[i] + B * e0[i], relaxed[i] = relaxed[i] - GB * e0[i];
-            }
-            if (shifts_vertically)
-                for (int i = 0; i < n; ++i) carried[i] = carried[i] + Gk * b[i];
-            dissipated = dissipated +
-                         2.0 * (step.shear.a11[k] * contraction(b, b) + step.shear.twice_a12[k] * contraction(b, de));
-            stored = stored + Gk * contraction(b_new, b_new);
-            for (int i = 0; i < n; ++i) state.set(first + i, b_new[i]);
-            for (int i = n; i < 6; ++i) state.keep(first + i);
+        for (int i = 0; i < n; ++i) relaxed[i] = Real(0.0);
+        if (shifts_vertically) {
+            for (int i = 0; i < n; ++i) carried[i] = c.G0 * e0[i];
+            for (int k = 0; k < elements; ++k)
+                for (int i = 0; i < n; ++i) carried[i] = carried[i] + c.shear.G(k) * old[FIRST_ELEMENT + 6 * k + i];
         }
+        Real dissipated = step.shear.dissipated * contraction(de, de);
+        Real stored = c.G0 * contraction(e0 + de, e0 + de);
+        const auto advance_elements = [&](auto follows_total) LODE_INLINE_LAMBDA {
+            for (int k = 0; k < elements; ++k) {
+                const double Gk = c.shear.G(k);
+                const X u = step.shear.u[k], A = step.shear.A[k], E = 1.0 - u, Gu = Gk * u;
+                const int first = FIRST_ELEMENT + 6 * k;
+                Tensor<kind, Real> b, b_new;
+                for (int i = 0; i < n; ++i) b[i] = old[first + i];
+                for (int i = 0; i < n; ++i) b_new[i] = E * b[i] + A * de[i];
+                for (int i = 0; i < n; ++i) relaxed[i] = relaxed[i] + Gu * b[i];
+                if constexpr (follows_total) {
+                    const X B = step.shear.B[k], GB = Gk * B;
+                    for (int i = 0; i < n; ++i) b_new[i] = b_new[i] + B * e0[i], relaxed[i] = relaxed[i] - GB * e0[i];
+                }
+                dissipated =
+                    dissipated + (step.shear.a11[k] * contraction(b, b) + step.shear.twice_a12[k] * contraction(b, de));
+                stored = stored + Gk * contraction(b_new, b_new);
+                for (int i = 0; i < n; ++i) state.set(first + i, b_new[i]);
+                for (int i = n; i < 6; ++i) state.keep(first + i);
+            }
+        };
+        // Two loops: what the trapezoidal rule keeps at hand is in the way of the others.
+        if (trapezoidal) advance_elements(std::true_type{});
+        else advance_elements(std::false_type{});
+        dissipated = 2.0 * dissipated;
         // Bulk elements.
         const Real V1 = V0 + dV;
         Real mean_relaxed(0.0), mean_carried = c.K0 * V0;
@@ -305,6 +311,12 @@ class Update {
                 for (int i = 0; i < normal_components(kind); ++i)
                     tangent.thermal_stress[i] = -c.thermal_expansion * held_back;
         }
+    }
+
+    // False where nothing expands, so that no exponential is needed. (A derivative can be there nevertheless.)
+    template <class Real>
+    LODE_INLINE bool expands_now(const Real& free_strain) const {
+        return c.expands() && (is_differentiated<Real> || any(free_strain != Real(0.0)));
     }
 
     // b at both ends; false where temperature or field 1 is not finite, and the point has failed.
