@@ -3,7 +3,9 @@
 // loaded that the model does not ask for.
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include "lode/material/kind.hpp"
 #include "lode/numerics/scalar.hpp"
@@ -76,6 +78,14 @@ struct Increment {
     }
 
     LODE_INLINE bool has_rotation() const { return rotation_source != nullptr; }
+    // True if there is one and it is not the identity. In integers, so that there is one branch.
+    LODE_INLINE bool turns() const {
+        if (!has_rotation()) return false;
+        const auto bits = [this](int i) { return std::bit_cast<std::uint64_t>(rotation_source[i]); };
+        constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
+        const std::uint64_t off = bits(1) | bits(2) | bits(3) | bits(5) | bits(6) | bits(7);  // -0 counts as 0
+        return ((bits(0) ^ one) | (bits(4) ^ one) | (bits(8) ^ one) | (off << 1)) != 0;
+    }
     // DROT; ask only if there is one.
     LODE_INLINE Matrix3<Real> rotation() const {
         Matrix3<Real> r;

@@ -54,7 +54,7 @@ struct CamClay {
         CamClayPath<kind, Real> start;
         Stress<kind, Real> elastic = elastic_strain<kind, Real>(state);
         if constexpr (!is_batch<Real>)
-            if (turns(increment)) elastic = rotate<kind, Real>(elastic, increment.rotation());
+            if (increment.turns()) elastic = rotate<kind, Real>(elastic, increment.rotation());
         start.v = -trace(elastic);
         start.e = deviator(elastic);
         start.pc = state[cam_clay::PC];
@@ -106,13 +106,6 @@ struct CamClay {
     static constexpr double largest_extension = 600.0;  // in units of kappa, from where pc would be reached
     static constexpr double largest_exponent = 660.0;   // exp() of it and of its negative are normal numbers
 
-    // DROT is there and not the identity.
-    template <AnalysisKind kind, class Real>
-    static bool turns(const Increment<kind, Real>& increment) {
-        const double* r = increment.rotation_source;
-        return r != nullptr && !(r[0] == 1.0 && r[4] == 1.0 && r[8] == 1.0 && r[1] == 0.0 && r[2] == 0.0 &&
-                                 r[3] == 0.0 && r[5] == 0.0 && r[6] == 0.0 && r[7] == 0.0);
-    }
     template <AnalysisKind kind, class Real>
     static Stress<kind, Real> elastic_strain(const State<Real>& state) {
         Stress<kind, Real> e;

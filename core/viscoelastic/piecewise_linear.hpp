@@ -24,6 +24,8 @@ class PiecewiseLinear {
     }
     bool is_constant() const { return segments_.empty(); }
     double largest() const { return largest_; }
+    // False if it is 1 everywhere.
+    bool is_not_one() const { return !is_constant() || largest_ != 1.0; }
 
     template <class Real>
     LODE_INLINE Real operator()(const Real& x) const {

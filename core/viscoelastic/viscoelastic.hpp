@@ -23,12 +23,9 @@ struct Constants {
     PressureLaw pressure;
     ReducedTime time;
     PiecewiseLinear temperature_factor, moisture_factor;
+    bool has_vertical_shift = temperature_factor.is_not_one() || moisture_factor.is_not_one();
 
     bool expands() const { return thermal_expansion != 0.0 || moisture_expansion != 0.0; }
-    bool has_vertical_shift() const {
-        return temperature_factor.largest() != 1.0 || !temperature_factor.is_constant() ||
-               moisture_factor.largest() != 1.0 || !moisture_factor.is_constant();
-    }
     int state_count() const { return FIRST_ELEMENT - 1 + 6 * shear.count + bulk.count; }
     static constexpr int most_state = FIRST_ELEMENT - 1 + 7 * most_prony_terms;
 };
@@ -153,7 +150,7 @@ class Update {
                 return point.fail(!finite, "temperature or field 1 is not finite");
         }
         Plain<Real> b0(1.0), b1(1.0);
-        const bool shifts_vertically = !is_plain && c.has_vertical_shift();
+        const bool shifts_vertically = !is_plain && c.has_vertical_shift;
         if (shifts_vertically && !vertical_shift(increment, point, b0, b1)) [[unlikely]]
             return;
 
@@ -162,7 +159,7 @@ class Update {
         State<Real> old = state;
         [[maybe_unused]] std::conditional_t<can_turn, Real[Constants::most_state], None> turned;
         if constexpr (can_turn) {
-            if (turns(increment)) [[unlikely]] {
+            if (increment.turns()) [[unlikely]] {
                 turn_state<kind, Real>(state, elements, c.state_count(), increment.rotation(), turned);
                 old = State<Real>(turned, nullptr, 1, c.state_count());
             }
@@ -344,15 +341,6 @@ class Update {
                multiply(c.moisture_factor, value_of(increment.field_start(1)), value_of(increment.field_increment(1)));
     }
 
-    // True if DROT turns anything.
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE static bool turns(const Increment<kind, Real>& increment) {
-        if (!increment.has_rotation()) return false;
-        const double* q = increment.rotation_source;
-        const double off = abs(q[1]) + abs(q[2]) + abs(q[3]) + abs(q[5]) + abs(q[6]) + abs(q[7]);
-        return off != 0.0 || q[0] != 1.0 || q[4] != 1.0 || q[8] != 1.0;
-    }
-
     // The lateral strain increment that makes the lateral stress of the end vanish. Only component 33 matters: in 1D
     // 22 is like it.
     template <AnalysisKind kind, class Real, class X>
@@ -466,7 +454,7 @@ struct Viscoelastic {
     static viscoelastic::Variant choose(const viscoelastic::Constants& c) {
         using viscoelastic::Variant;
         if (c.time.is_shifted()) return Variant::shifted;
-        const bool plain = c.pressure.is_linear() && c.recursion != Recursion::trapezoidal && !c.has_vertical_shift();
+        const bool plain = c.pressure.is_linear() && c.recursion != Recursion::trapezoidal && !c.has_vertical_shift;
         return plain ? Variant::plain : Variant::uniform;
     }
 };
