@@ -6,21 +6,26 @@
 
 #include <stddef.h>
 
+#include "lode/lode.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 enum { LODE_CMNAME_LENGTH = 80 }; /* CMNAME is padded with blanks */
 
-typedef void lode_umat_function(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
-                                double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
-                                const double* dstran, const double* time, const double* dtime, const double* temp,
-                                const double* dtemp, const double* predef, const double* dpred, const char* cmname,
-                                const int* ndi, const int* nshr, const int* ntens, const int* nstatv,
-                                const double* props, const int* nprops, const double* coords, const double* drot,
-                                double* pnewdt, const double* celent, const double* dfgrd0, const double* dfgrd1,
-                                const int* noel, const int* npt, const int* layer, const int* kspt, const int* kstep,
-                                const int* kinc, size_t cmname_length);
+#define LODE_UMAT_ARGUMENTS                                                                                            \
+    double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,                \
+        double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran, const double *time, \
+        const double *dtime, const double *temp, const double *dtemp, const double *predef, const double *dpred,       \
+        const char *cmname, const int *ndi, const int *nshr, const int *ntens, const int *nstatv, const double *props, \
+        const int *nprops, const double *coords, const double *drot, double *pnewdt, const double *celent,             \
+        const double *dfgrd0, const double *dfgrd1, const int *noel, const int *npt, const int *layer,                 \
+        const int *kspt, const int *kstep, const int *kinc, size_t cmname_length
+typedef void lode_umat_function(LODE_UMAT_ARGUMENTS);
+/* umat_ by the same way, which also says what the solution took. Such calls are not recorded. */
+typedef void lode_umat_observed_function(lode_observation* observation, LODE_UMAT_ARGUMENTS);
+#undef LODE_UMAT_ARGUMENTS
 
 #define LODE_VUMAT_ARGUMENTS(real)                                                                                  \
     const int *nblock, const int *ndir, const int *nshr, const int *nstatev, const int *nfieldv, const int *nprops, \
@@ -36,6 +41,7 @@ typedef void lode_vumat_sp_function(LODE_VUMAT_ARGUMENTS(float)); /* of a librar
 #undef LODE_VUMAT_ARGUMENTS
 
 lode_umat_function umat_;
+lode_umat_observed_function lode_umat_observed;
 lode_vumat_function vumat_;
 
 #ifdef __cplusplus

@@ -50,7 +50,8 @@ enum {
     LODE_VISCOUS = 128,          /* part of the stress is proportional to DSTRAN/DTIME and goes with it */
     LODE_OPEN_ENERGY = 256,      /* the work of phase changes is in none of SSE, SPD, SCD */
     LODE_FRAME_CHOICE = 512,     /* the onset of damage picks one of several equivalent directions by the axes */
-    LODE_ENERGY_ESTIMATE = 1024  /* SSE and SCD are estimates: they balance the work at small strain only */
+    LODE_ENERGY_ESTIMATE = 1024, /* SSE and SCD are estimates: they balance the work at small strain only */
+    LODE_ITERATES = 2048         /* equations are solved by iteration, in some kind and for some constants */
 };
 
 typedef struct lode_parameter {
@@ -104,6 +105,14 @@ typedef struct lode_model {
     int algorithm_count;
     const char* limits; /* where the model fails and what it then does; Markdown list */
 } lode_model;
+
+/* What the solution of one call took (`lode_umat_observed` in entry_points.h). A model in closed form, or a state that
+ * asks for no solution, leaves zeros. Solves inside the residual of another one are part of its evaluation. */
+typedef struct lode_observation {
+    int iterations; /* evaluations of the residuals that are solved for their roots, summed over substeps       */
+    int safeguards; /* steps between them by a bracket, a line search or a fallback in place of Newton's        */
+    int substeps;   /* into which the model cut the increment, tried ones included; 0 if it was done in one     */
+} lode_observation;
 
 /* Number of models in this library. */
 LODE_API int lode_model_count(void);

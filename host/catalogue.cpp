@@ -117,6 +117,8 @@ std::string traits_text(const lode_model& model) {
         "Temperatures are absolute; SSE is the internal energy, which heat changes as well as work.");
     add(LODE_VISCOUS, "Viscous stress, proportional to DSTRAN/DTIME, vanishes with the strain increment.");
     add(LODE_ENERGY_ESTIMATE, "SSE and SCD are estimates: they balance the stress work at small strain only.");
+    add(LODE_ITERATES,
+        "Some kinds or constants need iterations inside the update; `lode atlas` shows how many and where.");
     add(LODE_OPEN_ENERGY, "The work of phase changes is not tracked: SSE + SPD + SCD is not the stress work.");
     return text;
 }

@@ -70,6 +70,7 @@ Library::Library(const std::string& request) {
 
     resolve(handle, "umat_", umat_);
     resolve(handle, "vumat_", vumat_);
+    resolve(handle, "lode_umat_observed", observed_umat_);
     resolve(handle, "lode_model_count", model_count_);
     resolve(handle, "lode_model_at", model_at_);
     resolve(handle, "lode_required_state", required_state_);

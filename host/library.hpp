@@ -43,6 +43,8 @@ class Library {
     const std::string& path() const { return path_; }
     UmatFunction umat() const { return umat_; }
     VumatFunction vumat() const { return vumat_; }
+    // umat() that says what the solution took, or null: a library of others cannot say.
+    lode_umat_observed_function* observed_umat() const { return observed_umat_; }
     bool has_catalogue() const { return model_count_ != nullptr && model_at_ != nullptr; }
     std::vector<const lode_model*> models() const;
     // The model that a material name such as "ISO_PLASTIC-STEEL" selects, or null.
@@ -58,6 +60,7 @@ class Library {
     std::string path_;
     UmatFunction umat_ = nullptr;
     VumatFunction vumat_ = nullptr;
+    lode_umat_observed_function* observed_umat_ = nullptr;
     decltype(&lode_model_count) model_count_ = nullptr;
     decltype(&lode_model_at) model_at_ = nullptr;
     decltype(&lode_required_state) required_state_ = nullptr;

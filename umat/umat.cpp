@@ -14,7 +14,8 @@ void ask_for_smaller_increment(double& pnewdt, double ratio) {
 }
 
 [[gnu::always_inline]] inline void update_point(const char* cmname, const double* props, int nprops, int ndi, int nshr,
-                                                double& pnewdt, UmatArguments arguments) {
+                                                double& pnewdt, UmatArguments arguments,
+                                                lode_observation* observation = nullptr) {
     const Call call = prepare_call(HostProgram::standard, cmname, props, nprops, ndi, nshr, arguments.nstatv);
     if (call.material == nullptr) [[unlikely]]
         return;
@@ -28,6 +29,7 @@ void ask_for_smaller_increment(double& pnewdt, double ratio) {
     }
     CallStatus status;
     call.material->umat[static_cast<std::size_t>(call.kind)](call.material->object, arguments, status);
+    if (observation != nullptr) *observation = status.solves;
     if (status.failure != nullptr) [[unlikely]] {
         if (status.refusal != nullptr)
             report_error_and_stop(HostProgram::standard, failure_text(*call.material, status));
@@ -64,6 +66,24 @@ extern "C" LODE_API void umat_(double* stress, double* statev, double* ddsdde, d
     update_point(cmname, props, *nprops, *ndi, *nshr, *pnewdt,
                  {stress, statev, ddsdde, sse,   spd,    scd,   rpl,  ddsddt, drplde, drpldt, dstran,
                   time,   dtime,  temp,   dtemp, predef, dpred, drot, celent, dfgrd1, *nstatv});
+}
+
+// `observation` stays zero where the call is refused.
+extern "C" LODE_API void lode_umat_observed(lode_observation* observation, double* stress, double* statev,
+                                            double* ddsdde, double* sse, double* spd, double* scd, double* rpl,
+                                            double* ddsddt, double* drplde, double* drpldt, const double*,
+                                            const double* dstran, const double* time, const double* dtime,
+                                            const double* temp, const double* dtemp, const double* predef,
+                                            const double* dpred, const char* cmname, const int* ndi, const int* nshr,
+                                            const int*, const int* nstatv, const double* props, const int* nprops,
+                                            const double*, const double* drot, double* pnewdt, const double* celent,
+                                            const double*, const double* dfgrd1, const int*, const int*, const int*,
+                                            const int*, const int*, const int*, std::size_t) {
+    *observation = {};
+    update_point(cmname, props, *nprops, *ndi, *nshr, *pnewdt,
+                 {stress, statev, ddsdde, sse,   spd,    scd,   rpl,  ddsddt, drplde, drpldt, dstran,
+                  time,   dtime,  temp,   dtemp, predef, dpred, drot, celent, dfgrd1, *nstatv},
+                 observation);
 }
 
 // One host can only ask for upper-case symbols.

@@ -40,7 +40,7 @@ struct CohCubic : DecoupledInterface<Needleman, Needleman> {
             "the released energies. The stiffness follows from peak stress and toughness.",
         .source = "Nairn, chapter 7, sections 7.6.2 and 7.11",
         .kinds = cohesive_kinds,
-        .traits = LODE_HISTORY_STRESS,
+        .traits = LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 4,

@@ -45,7 +45,7 @@ struct CohExponential : DecoupledInterface<AbaqusExponential, AbaqusExponential>
             "released energies.",
         .source = "Nairn, chapter 7, sections 7.6.4 and 7.9",
         .kinds = cohesive_kinds,
-        .traits = LODE_HISTORY_STRESS,
+        .traits = LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 8,

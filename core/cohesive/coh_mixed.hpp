@@ -71,7 +71,7 @@ struct CohMixed {
             "the update is exact for a straight path of any length.",
         .source = "Nairn, chapter 7, sections 7.2 to 7.6 and 7.15",
         .kinds = cohesive_kinds,
-        .traits = LODE_UNSYMMETRIC | LODE_HISTORY_STRESS,
+        .traits = LODE_UNSYMMETRIC | LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 8,

@@ -41,7 +41,7 @@ struct CohTriangular : DecoupledInterface<Sawtooth, Sawtooth> {
             "and in sliding each by itself, with a mixed-mode criterion in the released energies.",
         .source = "Nairn, chapter 7, sections 7.6.1 and 7.8",
         .kinds = cohesive_kinds,
-        .traits = LODE_HISTORY_STRESS,
+        .traits = LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 6,

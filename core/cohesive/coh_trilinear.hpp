@@ -51,7 +51,7 @@ struct CohTrilinear : DecoupledInterface<Bilinear, Bilinear> {
             "mixed-mode criterion in the released energies.",
         .source = "Nairn, chapter 7, sections 7.6.5 and 7.13",
         .kinds = cohesive_kinds,
-        .traits = LODE_HISTORY_STRESS,
+        .traits = LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 10,

@@ -60,8 +60,8 @@ struct DecoupledInterface {
             fails = fails && !failed_before;
             // The path made once more: that of the other points stays in registers.
             if (any(fails))
-                result =
-                    at_failure<kind, Real>(*this, Path(increment, state, thickness), dn_old, dt_old, fails, result);
+                result = at_failure<kind, Real>(*this, Path(increment, state, thickness), dn_old, dt_old, fails, result,
+                                                point.solves);
             result.failed = failed_before || fails;
         }
 
@@ -136,17 +136,16 @@ struct DecoupledInterface {
     // and u_t are convex in s. It is frozen there, so that the criterion is met exactly whatever the size of the
     // increment. All arguments by value: nothing of the caller has to live in memory.
     template <AnalysisKind kind, class Real>
-    [[gnu::noinline]] static InterfaceResult<kind, Real> at_failure(const DecoupledInterface laws,
-                                                                    const SeparationPath<kind, Real> path,
-                                                                    const Real dn_old, const Real dt_old,
-                                                                    const Mask<Real> fails,
-                                                                    InterfaceResult<kind, Real> result) {
-        laws.locate_failure(path, dn_old, dt_old, fails, result);
+    [[gnu::noinline]] static InterfaceResult<kind, Real> at_failure(
+        const DecoupledInterface laws, const SeparationPath<kind, Real> path, const Real dn_old, const Real dt_old,
+        const Mask<Real> fails, InterfaceResult<kind, Real> result, SolveCounter<Real> solves) {
+        laws.locate_failure(path, dn_old, dt_old, fails, result, solves);
         return result;
     }
     template <AnalysisKind kind, class Real>
     LODE_INLINE void locate_failure(const SeparationPath<kind, Real>& path, const Real& dn_old, const Real& dt_old,
-                                    const Mask<Real>& fails, InterfaceResult<kind, Real>& result) const {
+                                    const Mask<Real>& fails, InterfaceResult<kind, Real>& result,
+                                    const SolveCounter<Real>& solves) const {
         using Path = SeparationPath<kind, Real>;
         const Real zero(0.0);
         const auto residual = [&](const Real& s) {
@@ -181,6 +180,7 @@ struct DecoupledInterface {
         const Mask<Real> inside = fails && residual(zero).value < zero;
         const Root<Real> root = solve_bracketed<Slope::increasing>(
             residual, zero, Real(1.0), select(inside, Real(1.0), zero), Real(4e-16), inside);
+        solves.count(root);
 
         const auto u = path.at(root.x);
         const Real opening = Path::opening(u), sliding = Path::sliding(u);

@@ -87,8 +87,8 @@ struct CoupledInterface {
             if (any(by_shear_alone)) shear_alone(ut, by_shear_alone, result);
             const Mask<Real> together = loads && !by_shear_alone;
             if (any(together)) {
-                if (method == MixedMode::explicit_rate) explicit_update(path, old, together, result);
-                else exact_update(path, old, un, ut, together, result);
+                if (method == MixedMode::explicit_rate) explicit_update(path, old, together, result, point.solves);
+                else exact_update(path, old, un, ut, together, result, point.solves);
             }
         }
 
@@ -242,18 +242,19 @@ struct CoupledInterface {
 
     template <AnalysisKind kind, class Real>
     void exact_update(const SeparationPath<kind, Real>& path, const Surface<Real>& old, const Real& un, const Real& ut,
-                      const Mask<Real>& loads, InterfaceResult<kind, Real>& result) const {
+                      const Mask<Real>& loads, InterfaceResult<kind, Real>& result,
+                      const SolveCounter<Real>& solves) const {
         const Real one(1.0);
         const Real offset = offset_of(old);
         Surface<Real> end{Real(end_n), Real(end_t)};
         if (any(offset != Real(0.0))) end = ends(offset, old.dn, old.dt);
         const Mask<Real> at_end = loads && end.value(un, ut) >= one, fails = at_end && Mask<Real>(!endless());
-        const Mask<Real> solves = loads && !at_end;
+        const Mask<Real> inside = loads && !at_end;
         Surface<Real> now{select(loads, end.dn, old.dn), select(loads, end.dt, old.dt)};
-        if (any(solves)) {
-            const Surface<Real> root = on_surface(un, ut, old, end, offset, solves);
-            now.dn = select(solves, max(root.dn, old.dn), now.dn);
-            now.dt = select(solves, max(root.dt, old.dt), now.dt);
+        if (any(inside)) {
+            const Surface<Real> root = on_surface(un, ut, old, end, offset, inside, solves);
+            now.dn = select(inside, max(root.dn, old.dn), now.dn);
+            now.dt = select(inside, max(root.dt, old.dt), now.dt);
         }
         add_released(path, old, now, offset, loads, fails, result);
         result.dn = select(loads, now.dn, result.dn);
@@ -264,7 +265,7 @@ struct CoupledInterface {
     // 5. the dn, dt of the curve from `old` to `end` on whose ellipse (un, ut) is
     template <class Real>
     Surface<Real> on_surface(const Real& un, const Real& ut, const Surface<Real>& old, const Surface<Real>& end,
-                             const Real& offset, const Mask<Real>& active) const {
+                             const Real& offset, const Mask<Real>& active, const SolveCounter<Real>& solves) const {
         if constexpr (std::is_same_v<NormalLaw, Sawtooth> && std::is_same_v<ShearLaw, Sawtooth>) {
             if (method == MixedMode::equal_damage) {
                 // 1/delta = c + e q makes F = 1 a quadratic in q
@@ -286,18 +287,18 @@ struct CoupledInterface {
             // Near the virgin state only Needleman's law knows its damage precisely.
             if (shear.code() == 3 && normal.code() != 3) {
                 const Surface<Real> swapped =
-                    follow(shear, normal, ut, un, {old.dt, old.dn}, {end.dt, end.dn}, -offset, active);
+                    follow(shear, normal, ut, un, {old.dt, old.dn}, {end.dt, end.dn}, -offset, active, solves);
                 return {swapped.dt, swapped.dn};
             }
         }
-        return follow(normal, shear, un, ut, old, end, offset, active);
+        return follow(normal, shear, un, ut, old, end, offset, active, solves);
     }
 
     // Newton's method on sqrt(F) - 1 with the delta of one mode (`first`, the dn of the surfaces here) as unknown.
     template <class First, class Second, class Real>
     Surface<Real> follow(const First& first, const Second& second, const Real& u1, const Real& u2,
                          const Surface<Real>& old, const Surface<Real>& end, const Real& offset,
-                         const Mask<Real>& active) const {
+                         const Mask<Real>& active, const SolveCounter<Real>& solves) const {
         const auto partner = [&](const Real& d1) {
             return max(at_coordinate(second, coordinate(first, d1) + offset), old.dt);
         };
@@ -313,8 +314,10 @@ struct CoupledInterface {
         // In each mode alone the surface would be here: F >= 1.
         const Real start = max(max(old.dn, u1), reversed(u2));
         const Real most = max(end.dn, old.dn);
-        const Real x =
-            solve_bracketed<Slope::decreasing>(residual, old.dn, most, min(start, most), Real(1e-14), active).x;
+        const auto root =
+            solve_bracketed<Slope::decreasing>(residual, old.dn, most, min(start, most), Real(1e-14), active);
+        solves.count(root);
+        const Real x = root.x;
         const Real d2 = partner(x);
         if (method == MixedMode::equal_damage) return {x, d2};
         // Near failure the partner may move far while this mode hardly does: then the ellipse knows it better.
@@ -400,7 +403,7 @@ struct CoupledInterface {
     // Method 2, section 4.3: the rate form with what is known at the start of each substep.
     template <AnalysisKind kind, class Real>
     void explicit_update(const SeparationPath<kind, Real>& path, const Surface<Real>& old, const Mask<Real>& loads,
-                         InterfaceResult<kind, Real>& result) const {
+                         InterfaceResult<kind, Real>& result, const SolveCounter<Real>& solves) const {
         using Path = SeparationPath<kind, Real>;
         const Real zero(0.0), one(1.0);
         const Real offset = offset_of(old);
@@ -409,6 +412,7 @@ struct CoupledInterface {
         const Surface<Real> end = ends(offset, old.dn, old.dt);
         Surface<Real> now = old;
         Mask<Real> failed(false);
+        solves.count_substeps(substeps);
         for (int i = 0; i < substeps; ++i) {
             const Real s = s0 + double(i) * step;
             const auto u = path.at(s);

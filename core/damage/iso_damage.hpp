@@ -72,12 +72,12 @@ struct IsoDamage {
         Outcome<Real> outcome{failed_before, Mask<Real>(false), mode, zero, zero};
         [[maybe_unused]] Stress<kind, Real> gradient{};
         if (steps) [[unlikely]] {
-            const RateStep<kind, Real> rate = step_by_rate(!failed_before, intact, step, damage, outcome);
+            const RateStep<kind, Real> rate = step_by_rate(!failed_before, intact, step, damage, outcome, point.solves);
             damage = rate.damage;
             outcome = rate.outcome;
             gradient = rate.gradient;
         } else if (!all(failed_before)) {
-            grow(!failed_before, intact, step, damage, outcome, tangent);
+            grow(!failed_before, intact, step, damage, outcome, tangent, point.solves);
         }
 
         // Step 6.
@@ -176,7 +176,8 @@ struct IsoDamage {
     // Steps 3 to 5.
     template <AnalysisKind kind, class Real, class T>
     LODE_INLINE void grow(const Mask<Real>& alive, const Mask<Real>& intact, Step<kind, Real>& step,
-                          Damage<Real>& damage, Outcome<Real>& outcome, T& tangent) const {
+                          Damage<Real>& damage, Outcome<Real>& outcome, T& tangent,
+                          const SolveCounter<Real>& solves) const {
         Branch<Real> normal, shear;
         normal.direction = direction(normal_law, step.size, strength, toughness, elastic.young);
         if (is_mixed())
@@ -184,11 +185,13 @@ struct IsoDamage {
         // A host may start with damage alone (STATE 1, H = 0).
         const Mask<Real> preset = alive && !intact && !step.size.frozen;
         if (any(preset)) [[unlikely]] {
-            damage.normal = select(
-                preset, cracking_strain(normal_law, normal.direction, damage.value, Real(0.0), preset), damage.normal);
+            damage.normal =
+                select(preset, cracking_strain(normal_law, normal.direction, damage.value, Real(0.0), preset, solves),
+                       damage.normal);
             if (is_mixed())
-                damage.shear = select(
-                    preset, cracking_strain(shear_law, shear.direction, damage.value, Real(0.0), preset), damage.shear);
+                damage.shear =
+                    select(preset, cracking_strain(shear_law, shear.direction, damage.value, Real(0.0), preset, solves),
+                           damage.shear);
         }
         // e(delta) = delta/D, at the start eps0.
         const Mask<Real> damaged = damage.value > Real(0.0);
@@ -210,8 +213,8 @@ struct IsoDamage {
         shear.reached = is_mixed() ? alive && measured.shear > e_shear : Mask<Real>(false);
         if (!any(normal.reached || shear.reached)) return;
 
-        soften(normal_law, measured.normal, damage.normal, normal);
-        if (is_mixed()) soften(shear_law, measured.shear, damage.shear, shear);
+        soften(normal_law, measured.normal, damage.normal, normal, solves);
+        if (is_mixed()) soften(shear_law, measured.shear, damage.shear, shear, solves);
         else shear.fails = Mask<Real>(false);
         const Mask<Real> fails = normal.fails || shear.fails;
         const Mask<Real> by_normal =
@@ -223,11 +226,12 @@ struct IsoDamage {
         // Dissipation of the active law.
         const Mask<Real> active = grows || fails;
         if (!is_mixed()) {
-            outcome.dissipated = dissipation(normal_law, normal, damage.value, now, fails);
+            outcome.dissipated = dissipation(normal_law, normal, damage.value, now, fails, solves);
         } else {
             Real by_tension(0.0), by_shear(0.0);
-            if (any(active && by_normal)) by_tension = dissipation(normal_law, normal, damage.value, now, fails);
-            if (any(active && !by_normal)) by_shear = dissipation(shear_law, shear, damage.value, now, fails);
+            if (any(active && by_normal))
+                by_tension = dissipation(normal_law, normal, damage.value, now, fails, solves);
+            if (any(active && !by_normal)) by_shear = dissipation(shear_law, shear, damage.value, now, fails, solves);
             outcome.dissipated = select(by_normal, by_tension, by_shear);
         }
         if (metric != StrainMetric::energy) {
@@ -253,11 +257,13 @@ struct IsoDamage {
             const Mask<Real> passive_shear = grows && by_normal, passive_normal = grows && !by_normal;
             Real delta_n = normal.direction.length * normal.u, delta_s = shear.direction.length * shear.u;
             if (any(passive_normal))
-                delta_n = select(by_normal, delta_n,
-                                 cracking_strain(normal_law, normal.direction, now, normal.u_old, passive_normal));
+                delta_n =
+                    select(by_normal, delta_n,
+                           cracking_strain(normal_law, normal.direction, now, normal.u_old, passive_normal, solves));
             if (any(passive_shear))
                 delta_s = select(by_normal,
-                                 cracking_strain(shear_law, shear.direction, now, shear.u_old, passive_shear), delta_s);
+                                 cracking_strain(shear_law, shear.direction, now, shear.u_old, passive_shear, solves),
+                                 delta_s);
             delta_n = select(fails, Real(normal_law.end() * normal.direction.length), delta_n);
             delta_s = select(fails, Real(shear_law.end() * shear.direction.length), delta_s);
             damage.normal = select(active, delta_n, damage.normal);
@@ -277,14 +283,16 @@ struct IsoDamage {
     template <AnalysisKind kind, class Real>
     [[gnu::noinline, gnu::cold]] RateStep<kind, Real> step_by_rate(Mask<Real> alive, Mask<Real> intact,
                                                                    Step<kind, Real> step, Damage<Real> damage,
-                                                                   Outcome<Real> outcome) const {
+                                                                   Outcome<Real> outcome,
+                                                                   SolveCounter<Real> solves) const {
         const Real one(1.0), tiny(1e-300);
         Branch<Real> b;
         b.direction = direction(normal_law, step.size, strength, toughness, elastic.young);
         const Mask<Real> preset = alive && !intact && !step.size.frozen;
         if (any(preset))
-            damage.normal = select(preset, cracking_strain(normal_law, b.direction, damage.value, Real(0.0), preset),
-                                   damage.normal);
+            damage.normal =
+                select(preset, cracking_strain(normal_law, b.direction, damage.value, Real(0.0), preset, solves),
+                       damage.normal);
         const Real r = b.direction.brittleness, L = b.direction.length;
         b.u_old = damage.normal / L;
         const Softened<Real> s = normal_law.at(b.u_old);
@@ -316,7 +324,8 @@ struct IsoDamage {
         const Real value = select(fails, one, select(softens, max(Real(b.u / strain), damage.value), damage.value));
 
         RateStep<kind, Real> result{damage, outcome};
-        result.outcome.dissipated = select(grows, dissipation(normal_law, b, damage.value, value, fails), Real(0.0));
+        result.outcome.dissipated =
+            select(grows, dissipation(normal_law, b, damage.value, value, fails, solves), Real(0.0));
         result.outcome.failed = outcome.failed || fails;
         result.outcome.grows = softens;
         result.outcome.mode = select(grows, one, outcome.mode);
@@ -333,14 +342,15 @@ struct IsoDamage {
 
     // The point of the law at eps_eff, where that is beyond the surface.
     template <class Real>
-    LODE_INLINE void soften(const SofteningLaw& law, const Real& strain, const Real& delta, Branch<Real>& b) const {
+    LODE_INLINE void soften(const SofteningLaw& law, const Real& strain, const Real& delta, Branch<Real>& b,
+                            const SolveCounter<Real>& solves) const {
         const Real inverse = 1.0 / b.direction.length, r = b.direction.brittleness;
         const Real x = inverse * strain;
         b.u_old = inverse * delta;
         b.fails = b.reached && x >= law.end_strain(r);
         const Mask<Real> softens = b.reached && !b.fails;
         if (!any(softens)) return;
-        const Softened<Real> s = law.at_strain(x, r, b.u_old, softens);
+        const Softened<Real> s = law.at_strain(x, r, b.u_old, softens, solves);
         b.u = s.u;
         b.slope = r * s.slope;
         b.damage = select(softens, s.u / select(softens, x, Real(1.0)), Real(0.0));
@@ -349,11 +359,12 @@ struct IsoDamage {
     // delta(D), not beyond the end of the law; `u_start`: delta/L at smaller damage, or 0.
     template <class Real>
     LODE_INLINE Real cracking_strain(const SofteningLaw& law, const SofteningDirection<Real>& d, const Real& damage,
-                                     const Real& u_start, const Mask<Real>& active) const {
-        const Mask<Real> before_end = damage < law.end_damage(d.brittleness), solves = active && before_end;
+                                     const Real& u_start, const Mask<Real>& active,
+                                     const SolveCounter<Real>& solves) const {
+        const Mask<Real> before_end = damage < law.end_damage(d.brittleness), inside = active && before_end;
         const Real end(law.end());
-        if (!any(solves)) return d.length * end;
-        const Real u = law.at_damage(damage, d.brittleness, u_start, solves).u;
+        if (!any(inside)) return d.length * end;
+        const Real u = law.at_damage(damage, d.brittleness, u_start, inside, solves).u;
         return d.length * select(before_end, min(u, end), end);
     }
 
@@ -361,7 +372,7 @@ struct IsoDamage {
     // stress does not fall, and nothing is dissipated.
     template <class Real>
     LODE_INLINE Real dissipation(const SofteningLaw& law, const Branch<Real>& b, const Real& old, const Real& now,
-                                 const Mask<Real>& fails) const {
+                                 const Mask<Real>& fails, const SolveCounter<Real>& solves) const {
         const Real r = b.direction.brittleness;
         Real release = law.omega(b.u), release_old = law.omega(b.u_old);
         if (any(fails)) release = select(fails, law.end_release(r), release);
@@ -374,7 +385,7 @@ struct IsoDamage {
                 Real most = law.end_release(r) - (0.5 * residual_stiffness) * end * end / r;
                 const Mask<Real> before_end = rests && last < law.end_damage(r);
                 if (any(before_end)) {
-                    const Real u = min(law.at_damage(last, r, Real(0.0), before_end).u, Real(law.end()));
+                    const Real u = min(law.at_damage(last, r, Real(0.0), before_end, solves).u, Real(law.end()));
                     most = select(before_end, law.omega(u), most);
                 }
                 release = select(rests, most, release);

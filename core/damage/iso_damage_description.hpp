@@ -118,7 +118,7 @@ inline constexpr lode_model description = {
         "element length as regularisation.",
     .source = "Nairn, section 6.2 (isotropic damage mechanics)",
     .kinds = continuum_kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 5,

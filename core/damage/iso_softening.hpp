@@ -205,7 +205,7 @@ struct IsoSoftening {
         const Mask<Real> preset = !intact && !step.size.frozen;
         if (any(preset)) [[unlikely]] {
             axes.normalise(preset, kind != AnalysisKind::solid);
-            crack.set_predamaged(preset, stage, law, crack_update.old);
+            crack.set_predamaged(preset, stage, law, crack_update.old, point.solves);
         }
         if (any(step.cracks)) axes.choose(step.cracks, plane.N, plane.T);
         axes.set_third();
@@ -220,9 +220,9 @@ struct IsoSoftening {
             if constexpr (Update::m > 1)
                 if (depends_on_pressure<kind>()) {
                     const auto p = crack_pressure(step, crack_update.old.strain[0], law[1]);
-                    return crack.damage(q_old, q, damaging, law, p, crack_update.now, rates);
+                    return crack.damage(q_old, q, damaging, law, p, crack_update.now, rates, point.solves);
                 }
-            return crack.damage(q_old, q, damaging, law, NoPressure{}, crack_update.now, rates);
+            return crack.damage(q_old, q, damaging, law, NoPressure{}, crack_update.now, rates, point.solves);
         };
         CrackLinearisation<kind> linear;
         crack_update.run(crack, point.stress, step.trial, stage, damaging, stepping, damage, &linear, tangent);

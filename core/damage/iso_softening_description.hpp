@@ -136,7 +136,7 @@ inline constexpr lode_model description = {
         "rest stays elastic. A closed crack carries compression.",
     .source = "Nairn, chapter 5 (anisotropic damage mechanics)",
     .kinds = continuum_kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_FRAME_CHOICE,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_FRAME_CHOICE | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 8,

@@ -198,12 +198,13 @@ struct OrthoSoftening {
         if (reduces_strength)
             for (int j = 0; j < Update::m; ++j) crack_update.law[j].limit_strength(crack.law(j));
         if (any(preset)) [[unlikely]]
-            crack.set_predamaged(preset, stage, crack_update.law, crack_update.old);
+            crack.set_predamaged(preset, stage, crack_update.law, crack_update.old, point.solves);
 
         const Mask<Real> damaging = onset.cracks || (!intact && stage < Real(1.5));
         std::conditional_t<wants_tangent<T>, DamageRates<Update::m>, NoRates> rates;
         const auto damage = [&](const auto& q_old, const auto& q) LODE_INLINE_LAMBDA {
-            return crack.damage(q_old, q, damaging, crack_update.law, NoPressure{}, crack_update.now, rates);
+            return crack.damage(q_old, q, damaging, crack_update.law, NoPressure{}, crack_update.now, rates,
+                                point.solves);
         };
         CrackLinearisation<kind> linear;
         crack_update.run(crack, step.stress_old, step.trial, stage, damaging, Mask<Real>(false), damage, &linear,

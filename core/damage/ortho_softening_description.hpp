@@ -151,7 +151,7 @@ inline constexpr lode_model description = {
         "material or, in a transversely isotropic one, on any plane that contains its axis.",
     .source = "Nairn, chapter 5 (anisotropic damage mechanics)",
     .kinds = LODE_SOLID | LODE_PLANE_STRAIN | LODE_PLANE_STRESS,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 29,

@@ -58,8 +58,9 @@ class SofteningCrack : public LinkedSoftening {
     template <int m, class Real, class Pressure, class Rates>
     LODE_INLINE Mask<Real> damage(const Vector<Real, m>& q_old, const Vector<Real, m>& q_end, const Mask<Real>& active,
                                   Vector<SofteningDirection<Real>, m>& direction, const Pressure& pressure,
-                                  CrackState<m, Real>& crack, Rates& rates) const {
+                                  CrackState<m, Real>& crack, Rates& rates, const SolveCounter<Real>& solves) const {
         Growth<m, Real> g;
+        g.solves = solves;
         for (int j = 0; j < m; ++j) {
             g.start[j] = j == 0 ? positive_part(q_old[0]) : q_old[j];
             g.end[j] = j == 0 ? positive_part(q_end[0]) : q_end[j];
@@ -165,13 +166,14 @@ class SofteningCrack : public LinkedSoftening {
     template <int m, class Real>
     [[gnu::noinline]] void set_predamaged(const Mask<Real>& where, const Real& stage,
                                           const Vector<SofteningDirection<Real>, m>& direction,
-                                          CrackState<m, Real>& crack) const {
+                                          CrackState<m, Real>& crack, SolveCounter<Real> solves) const {
         const Real zero(0.0), one(1.0);
         const Mask<Real> failed = where && stage > Real(1.5), damaged = where && !failed;
         for (int j = 0; j < m; ++j) {
             const Mask<Real>& enabled = direction[j].enabled;
             const Real d = max(min(crack.damage[j], one), zero);
-            const Real u = law(j).at_damage(d, direction[j].brittleness, zero, damaged && enabled && d > zero).u;
+            const Mask<Real> solved = damaged && enabled && d > zero;
+            const Real u = law(j).at_damage(d, direction[j].brittleness, zero, solved, solves).u;
             crack.damage[j] = select(failed, one, select(damaged, d, crack.damage[j]));
             crack.delta[j] = select(damaged && d > zero, u * direction[j].length, crack.delta[j]);
             crack.delta[j] = select(failed, law(j).end() * direction[j].length, crack.delta[j]);
@@ -203,6 +205,7 @@ class SofteningCrack : public LinkedSoftening {
         Vector<Softened<Real>, m> at;                 // of the laws at the end, or at d_f if they fail
         Vector<Mask<Real>, m> enabled, grows, fails;  // `grows` includes `fails`
         Vector<Mask<Real>, m> sets;                   // SURF 3, 4: whose group sets the common damage
+        [[no_unique_address]] SolveCounter<Real> solves;
 
         // e at the end.
         LODE_INLINE Real e(int j, const SofteningDirection<Real>& direction) const {
@@ -231,9 +234,10 @@ class SofteningCrack : public LinkedSoftening {
             dir.set_strength(tau, dir.energy());
             if (isotropic && j == 2 && links_shears()) g.u_old[2] = g.u_old[1];
             else
-                g.u_old[j] =
-                    shear_law.at_damage(g.d_old[j], dir.brittleness, g.u_old[j], g.enabled[j] && g.d_old[j] > Real(0.0))
-                        .u;
+                g.u_old[j] = shear_law
+                                 .at_damage(g.d_old[j], dir.brittleness, g.u_old[j],
+                                            g.enabled[j] && g.d_old[j] > Real(0.0), g.solves)
+                                 .u;
             const Real u = select(g.d_old[j] > Real(0.0), g.u_old[j], Real(0.0));
             g.u_old[j] = u;
             set_threshold(dir, u * dir.length, j, g);
@@ -251,7 +255,7 @@ class SofteningCrack : public LinkedSoftening {
         const Real x = eps / direction.length, r = direction.brittleness;
         const Mask<Real> fails = grows && x >= softening.end_strain(r);
         g.fails[j] = fails;
-        Softened<Real> s = softening.at_strain(x, r, g.u_old[j], grows && !fails);
+        Softened<Real> s = softening.at_strain(x, r, g.u_old[j], grows && !fails, g.solves);
         s.u = select(fails, Real(softening.end()), s.u);
         s.f = select(fails, Real(softening.end_value()), s.f);
         g.at[j] = s;
@@ -300,6 +304,7 @@ class SofteningCrack : public LinkedSoftening {
             g.grows[first] = linked.active;
             if (any(linked.active)) {
                 linked.d = g.d_old[first];
+                linked.solves = g.solves;
                 linked = solve<first == 0>(linked);
                 for (int k = 0; k < K; ++k) {
                     const int j = first + k;
@@ -326,7 +331,7 @@ class SofteningCrack : public LinkedSoftening {
         if constexpr (m == 3) shear = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
         const UnderPressure<Real> step =
             solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.e_old[0],
-                                 g.u_old[0], g.u_old[1], g.enabled[0]);
+                                 g.u_old[0], g.u_old[1], g.enabled[0], g.solves);
         for (int j = 0; j < m; ++j) {
             if (j > 0) {
                 direction[j].set_strength(step.tau.value, direction[j].energy());
@@ -372,7 +377,7 @@ class SofteningCrack : public LinkedSoftening {
             Mask<Real> needed = follows;
             if (isotropic && j == 1 && m == 3) needed = grows && !fails && !(g.sets[1] && g.sets[m - 1]);
             if (!any(needed)) continue;
-            const Softened<Real> s = law(j).at_damage(d, direction[j].brittleness, g.u_old[j], needed);
+            const Softened<Real> s = law(j).at_damage(d, direction[j].brittleness, g.u_old[j], needed, g.solves);
             if (j == 1) shears = s;
             g.at[j] = choose(follows, s, g.at[j]);
         }

@@ -132,18 +132,18 @@ class SofteningLaw {
 
     // u + r f(u) = x: the point of the law at a strain x = eps/L between e/L at `u_old` and at the end.
     template <class Real>
-    LODE_INLINE Softened<Real> at_strain(const Real& x, const Real& r, const Real& u_old,
-                                         const Mask<Real>& active) const {
+    LODE_INLINE Softened<Real> at_strain(const Real& x, const Real& r, const Real& u_old, const Mask<Real>& active,
+                                         const SolveCounter<Real>& solves = {}) const {
         if (code_ == linear) return at(Real((x - r) / (1.0 - 0.5 * r)));
-        return solve_strain(x, r, u_old, active);
+        return solve_strain(x, r, u_old, active, solves);
     }
 
     // u (1 - d) = d r f(u): the point of the law at damage d. `u_start`: a value at smaller damage, or 0.
     template <class Real>
-    LODE_INLINE Softened<Real> at_damage(const Real& d, const Real& r, const Real& u_start,
-                                         const Mask<Real>& active) const {
+    LODE_INLINE Softened<Real> at_damage(const Real& d, const Real& r, const Real& u_start, const Mask<Real>& active,
+                                         const SolveCounter<Real>& solves = {}) const {
         if (code_ == linear) return at(Real(2.0 * r * d / (2.0 * (1.0 - d) + r * d)));
-        return solve_damage(d, r, u_start, active);
+        return solve_damage(d, r, u_start, active, solves);
     }
 
     // The same at a point that is known.
@@ -157,11 +157,11 @@ class SofteningLaw {
 
     // Its u alone; `u_start` near the answer.
     template <class Real>
-    LODE_INLINE Real delta_at_damage(const Real& d, const Real& r, const Real& u_start,
-                                     const Mask<Real>& active) const {
+    LODE_INLINE Real delta_at_damage(const Real& d, const Real& r, const Real& u_start, const Mask<Real>& active,
+                                     const SolveCounter<Real>& solves) const {
         if constexpr (!is_differentiated<Real>)
-            if (code_ == exponential) return solve_exponential(d, r, u_start, active);
-        return at_damage(d, r, u_start, active).u;
+            if (code_ == exponential) return solve_exponential(d, r, u_start, active, solves);
+        return at_damage(d, r, u_start, active, solves).u;
     }
 
   private:
@@ -263,10 +263,11 @@ class SofteningLaw {
     // The strain grows with u. Newton starts where the increment is small at the old point, else at the upper end,
     // towards which the laws are convex.
     template <class Real>
-    [[gnu::noinline]] Softened<Real> solve_strain(Real x, Real r, Real u_old, Mask<Real> active) const {
+    [[gnu::noinline]] Softened<Real> solve_strain(Real x, Real r, Real u_old, Mask<Real> active,
+                                                  SolveCounter<Real> solves) const {
         if constexpr (!is_differentiated<Real>)
             if (code_ == exponential && all(!active || r < Real(0.9)))
-                return solve_exponential_strain(x, r, u_old, active);
+                return solve_exponential_strain(x, r, u_old, active, solves);
         const Real lower = min(u_old, Real(end_)), upper = max(lower, min(x, Real(end_)));
         const Mask<Real> small = upper - lower < 2.0 * r;
         const Real start = select(active, select(small, lower, upper), lower);
@@ -275,34 +276,37 @@ class SofteningLaw {
                 const Softened<Real> s = curved_of<code>(u);
                 return Balance<Real>{s.strain(r) - x, 1.0 + r * s.slope, s};
             };
-            return solve_bracketed<Slope::increasing>(residual, lower, upper, start, Real(tolerance * x), active)
-                .last.point;
+            const auto root =
+                solve_bracketed<Slope::increasing>(residual, lower, upper, start, Real(tolerance * x), active);
+            solves.count(root);
+            return root.last.point;
         });
     }
 
     template <class Real>
-    [[gnu::noinline]] Softened<Real> solve_damage(Real d, Real r, Real u_start, Mask<Real> active) const {
+    [[gnu::noinline]] Softened<Real> solve_damage(Real d, Real r, Real u_start, Mask<Real> active,
+                                                  SolveCounter<Real> solves) const {
         switch (code_) {
             case smooth_step:
             case cubic:
-                return solve_cubic(d, r, u_start, active);
+                return solve_cubic(d, r, u_start, active, solves);
             case exponential:
                 if constexpr (is_differentiated<Real>) {
-                    return solve_by_newton<exponential>(d, r, u_start, active);
+                    return solve_by_newton<exponential>(d, r, u_start, active, solves);
                 } else {
-                    const Real u = solve_exponential(d, r, u_start, active), f = exp(-u);
+                    const Real u = solve_exponential(d, r, u_start, active, solves), f = exp(-u);
                     return {u, f, -f};
                 }
             case double_exponential:
-                return solve_by_newton<double_exponential>(d, r, u_start, active);
+                return solve_by_newton<double_exponential>(d, r, u_start, active, solves);
             default:
                 return solve_by_lambert(d, r);
         }
     }
     // u + r e^-u = x is convex in u and, away from snap-back, rises: Newton comes from above after at most one step.
     template <class Real>
-    LODE_INLINE Softened<Real> solve_exponential_strain(const Real& x, const Real& r, Real u,
-                                                        const Mask<Real>& active) const {
+    LODE_INLINE Softened<Real> solve_exponential_strain(const Real& x, const Real& r, Real u, const Mask<Real>& active,
+                                                        const SolveCounter<Real>& solves) const {
         constexpr int most = 60;
         u = select(active, u, Real(0.0));
         Real f = u;
@@ -314,27 +318,33 @@ class SofteningLaw {
             f = select(last, at * (1.0 + step * (1.0 + 0.5 * step)), f);
             u = select(done || !active, u, u - step);
             done = done || last;
-            if (all(done) || iteration == most) return {u, f, -f};
+            if (all(done) || iteration == most) {
+                solves.count(iteration + 1);
+                return {u, f, -f};
+            }
         }
     }
     // u (1 - d) = d r e^-u is concave in u: Newton comes from below after at most one step.
     template <class Real>
-    [[gnu::noinline]] Real solve_exponential(Real d, Real r, Real u, Mask<Real> active) const {
+    [[gnu::noinline]] Real solve_exponential(Real d, Real r, Real u, Mask<Real> active,
+                                             SolveCounter<Real> solves) const {
         constexpr int most = 60;
         const Real rest = max(1.0 - d, Real(1e-16)), weight = d * r;
         Mask<Real> done = !active;
-        for (int iteration = 0; iteration < most && !all(done); ++iteration) {
+        int iteration = 0;
+        for (; iteration < most && !all(done); ++iteration) {
             const Real pull = weight * exp(-u);
             const Real step = (u * rest - pull) / (rest + pull);
             u = select(done, u, u - step);
             // What is left is half the square of the step.
             done = done || abs(step) <= 1e-8 * abs(u);
         }
+        solves.count(iteration);
         return u;
     }
     template <Code code, class Real>
     LODE_INLINE Softened<Real> solve_by_newton(const Real& d, const Real& r, const Real& u_start,
-                                               const Mask<Real>& active) const {
+                                               const Mask<Real>& active, const SolveCounter<Real>& solves) const {
         // The root is not above r f_max d/(1 - d).
         const Real rest = max(1.0 - d, Real(1e-16)), weight = d * r;
         const Real upper = (1.0 + 1e-12) * peak_ * weight / rest, start = min(u_start, upper);
@@ -342,9 +352,10 @@ class SofteningLaw {
             const Softened<Real> s = curved_of<code>(u);
             return Balance<Real>{u * rest - weight * s.f, rest - weight * s.slope, s};
         };
-        return solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start, Real(tolerance * peak_ * weight),
-                                                  active)
-            .last.point;
+        const auto root = solve_bracketed<Slope::increasing>(residual, Real(0.0), upper, start,
+                                                             Real(tolerance * peak_ * weight), active);
+        solves.count(root);
+        return root.last.point;
     }
     // Law 6: with y = (k u)^a and t = d/(1 - d) the condition is y e^(a y) = (k t r)^a, a y = W0(a (k t r)^a) with
     // Lambert's function, and one step of Newton for u itself.
@@ -363,8 +374,8 @@ class SofteningLaw {
     // f has a double root at the end: with x = y^2 the square root of the condition is nearly linear in y,
     // 1 - y^2 = y sqrt(end (1 - d)/(d r (1 + 2 k2 y^2))).
     template <class Real>
-    LODE_INLINE Softened<Real> solve_cubic(const Real& d, const Real& r, const Real& u_start,
-                                           const Mask<Real>& active) const {
+    LODE_INLINE Softened<Real> solve_cubic(const Real& d, const Real& r, const Real& u_start, const Mask<Real>& active,
+                                           const SolveCounter<Real>& solves) const {
         const Real one(1.0);
         const Real ratio = sqrt(end_ * max(one - d, Real(0.0)) / max(Real(d * r), Real(1e-280)));
         const auto residual = [=, this](const Real& y) {
@@ -374,8 +385,10 @@ class SofteningLaw {
             return Balance<Real>{rest - y * root, -2.0 * y - root / stretch, s};
         };
         const Real start = select(d < one, sqrt(min(Real(u_start * (1.0 / end_)), one)), one);
-        return solve_bracketed<Slope::decreasing>(residual, Real(0.0), one, start, Real(1e-15), active && d < one)
-            .last.point;
+        const auto root =
+            solve_bracketed<Slope::decreasing>(residual, Real(0.0), one, start, Real(1e-15), active && d < one);
+        solves.count(root);
+        return root.last.point;
     }
 
     double double_exponential_end(double fmin) const {

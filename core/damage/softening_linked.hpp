@@ -42,6 +42,7 @@ struct LinkedSoftening {
         Real d;
         Mask<Real> active, fails;
         Vector<Softened<Real>, K> at;
+        [[no_unique_address]] SolveCounter<Real> solves;
     };
 
     template <bool with_normal, int K, class Real>
@@ -179,7 +180,10 @@ struct LinkedSoftening {
                 s.at[k] = iteration == 0 ? point[k] : choose(fresh, point[k], s.at[k]);
             }
             s.solved = s.solved || done;
-            if (all(s.solved) || iteration == most) break;
+            if (all(s.solved) || iteration == most) {
+                l.solves.count(iteration + 1);
+                break;
+            }
         }
         for (int k = 0; k < K; ++k)
             s.at[k] = is_differentiated<Real> ? law_of<with_normal>(k).at(u_solved[k])
@@ -241,6 +245,7 @@ struct LinkedSoftening {
         }
         const auto root = solve_bracketed<Slope::decreasing>([&](const Real& d) { return evaluate(d, inside); }, l.d,
                                                              max(d_end, l.d), l.d, Real(2e-15), inside);
+        l.solves.count(root.iterations, root.iterations);
         l.d = select(l.fails, d_end, root.x);
         for (int k = 0; k < K; ++k) {
             const Softened<Real>& s = root.last.at[k];
@@ -263,13 +268,13 @@ struct LinkedSoftening {
     [[gnu::noinline]] UnderPressure<Real> solve_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
                                                                CrackPressure<Real> pressure, Real q, Real shear,
                                                                Real d_old, Real e_old, Real u_old, Real shear_old,
-                                                               Mask<Real> enabled) const {
+                                                               Mask<Real> enabled, SolveCounter<Real> solves) const {
         const Real energy = s.energy();
         const Mask<Real> damaged = enabled && d_old > Real(0.0);
         // Of the shear law at the old damage, with another strength.
         const auto old_point = [&](const Real& tau, const Real& guess) {
             s.set_strength(tau, energy);
-            return select(damaged, shear_law.delta_at_damage(d_old, s.brittleness, guess, damaged), Real(0.0));
+            return select(damaged, shear_law.delta_at_damage(d_old, s.brittleness, guess, damaged, solves), Real(0.0));
         };
         UnderPressure<Real> step;
         const Real start = old_point(pressure.strength(d_old * q).value, shear_old);
@@ -287,6 +292,7 @@ struct LinkedSoftening {
         l.modulus = s.modulus;
         l.d = d_old;
         l.active = step.grows;
+        l.solves = solves;
         const Together<2, Real> together = solve_together<true>(l, pressure, energy);
         // The end of the laws: that of the strongest shear is a lower bound.
         Real d_end = min(normal_law.end_damage(n.brittleness),
@@ -302,7 +308,7 @@ struct LinkedSoftening {
         step.normal = together.at[0];
         step.shear = together.at[1];
         if (any(rest)) [[unlikely]]
-            search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step);
+            search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step, solves);
         // Near the answer: Newton's step of the exponential law, whose value at the start is known.
         s.set_strength(step.tau.value, energy);
         const Real ratio = s.brittleness / r_start;
@@ -314,7 +320,8 @@ struct LinkedSoftening {
     template <class Real>
     [[gnu::noinline]] void search_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
                                                  CrackPressure<Real> pressure, Real q, Real shear, Real d_end,
-                                                 Real d_old, Mask<Real> where, UnderPressure<Real>& step) const {
+                                                 Real d_old, Mask<Real> where, UnderPressure<Real>& step,
+                                                 SolveCounter<Real> solves) const {
         struct Excess {
             Real value, slope;
             ShearStrength<Real> tau;
@@ -344,6 +351,7 @@ struct LinkedSoftening {
         const Mask<Real> fails = where && end.value >= Real(0.0), inside = where && !fails;
         const auto root = solve_bracketed([&](const Real& d) { return evaluate(d, inside); }, d_old, max(d_end, d_old),
                                           d_old, Real(4e-15), inside);
+        solves.count(root.iterations, root.iterations);
         const auto take = [&](const Mask<Real>& lanes, const Real& d, const Excess& x) {
             step.d = select(lanes, d, step.d);
             step.tau.value = select(lanes, x.tau.value, step.tau.value);

@@ -135,7 +135,7 @@ bool first_sign_change(const F& value, bool falls, double end, double& lower, do
 
 // (C2) Opening and multiplier of a crack above its surface, to about `accuracy`; false if it fails.
 inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, double accuracy,
-                   CrackJump<double>& jump) {
+                   CrackJump<double>& jump, const SolveCounter<double>& solves) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double tau_s = std::sqrt((s.t * s.t + s.p * s.p) * law.strength.inverse_tau_sf_square);
     double x_l = 0.0;
@@ -146,7 +146,9 @@ inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u
         if (!first_sign_change([&](double x) { return B(x).value; }, true, x_f, lower, upper)) return false;
         const double size = 1.0 + std::abs(law.strength.inverse_tau_nf * s.n);
         const double tolerance = std::max(2.0 * epsilon, 1e-7 * accuracy) * size;
-        x_l = solve_bracketed<Slope::decreasing>(B, lower, upper, upper, tolerance).x;
+        const auto root = solve_bracketed<Slope::decreasing>(B, lower, upper, upper, tolerance);
+        solves.count(root);
+        x_l = root.x;
     }
     jump.n = x_l;
     if (tau_s > 1e-7) {
@@ -162,10 +164,13 @@ inline bool soften(const CrackLaw& law, const PlaneStresses<double>& s, double u
                 return Residual<double>{at.value, 2.0 * z * at.slope};
             };
             const double end = std::sqrt(upper - x_l);
-            const double z = solve_bracketed<Slope::increasing>(along_z, 0.0, end, end, tolerance).x;
-            jump.n = x_l + z * z;
+            const auto root = solve_bracketed<Slope::increasing>(along_z, 0.0, end, end, tolerance);
+            solves.count(root);
+            jump.n = x_l + root.x * root.x;
         } else {
-            jump.n = solve_bracketed<Slope::increasing>(r, lower, upper, lower, tolerance).x;
+            const auto root = solve_bracketed<Slope::increasing>(r, lower, upper, lower, tolerance);
+            solves.count(root);
+            jump.n = root.x;
         }
     }
     const auto end = evaluate_decohesion<1>(law.strength, law.opened(s, jump.n), law.softening(u + jump.n));
@@ -210,10 +215,12 @@ CrackJump<Real> refined(const CrackLaw& law, const PlaneStresses<Real>& s, const
 }
 
 // Newton's method from near the solution; false, and the jump as it was, where it does not converge.
-inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, CrackJump<double>& jump) {
+inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, CrackJump<double>& jump,
+                   const SolveCounter<double>& solves) {
     CrackJump<double> better = jump;
     for (int iteration = 0; iteration < 6; ++iteration) {
         const CrackJump<double> next = refined(law, s, u, better);
+        solves.count(1);
         if (!(next.n >= 0.0 && next.n <= x_f && next.omega >= 0.0)) return false;
         const double change = std::abs(next.n - better.n), omega_change = std::abs(next.omega - better.omega);
         better = next;
@@ -227,7 +234,8 @@ inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u
 }
 
 // The jump of a crack of opening u in the stress s that it would bear unopened. `failed`: it had failed before.
-inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<double>& s, double u, bool has_failed) {
+inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<double>& s, double u, bool has_failed,
+                                    const SolveCounter<double>& solves) {
     using namespace crack_return_detail;
     const double x_f = law.u_0 - u;
     CrackJump<double> jump = CrackJump<double>::none();
@@ -238,9 +246,10 @@ inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<dou
         jump.response = CrackResponse::softening;
         if (!k.rankine) {
             // The root to a few digits, then Newton's method on the two equations, which are regular in mode I as well.
-            if (!soften(law, s, u, x_f, 1e-5, jump)) return failed(law, s, x_f);
-            if (polish(law, s, u, x_f, jump)) return jump;
-            soften(law, s, u, x_f, std::numeric_limits<double>::epsilon(), jump);
+            if (!soften(law, s, u, x_f, 1e-5, jump, solves)) return failed(law, s, x_f);
+            if (polish(law, s, u, x_f, jump, solves)) return jump;
+            solves.count(0, 1);
+            soften(law, s, u, x_f, std::numeric_limits<double>::epsilon(), jump, solves);
             jump.eta = 1.0 / (1.0 + law.kappa * jump.omega);
             const double sliding = 2.0 * k.inverse_tau_sf_square * jump.omega * jump.eta;
             jump.t = sliding * s.t;
@@ -253,7 +262,9 @@ inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<dou
             };
             if (r(x_f).value < 0.0) {
                 const double tolerance = std::numeric_limits<double>::epsilon() * s.n;
-                jump.n = solve_bracketed<Slope::decreasing>(r, 0.0, x_f, 0.0, tolerance).x;
+                const auto root = solve_bracketed<Slope::decreasing>(r, 0.0, x_f, 0.0, tolerance);
+                solves.count(root);
+                jump.n = root.x;
                 return refined(law, s, u, jump);
             }
         } else {

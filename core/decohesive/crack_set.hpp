@@ -18,6 +18,7 @@ class CrackSet {
     bool initiated = false, active = false, unconverged = false;
     Stress<kind, Real> stress;
     Real dissipated = Real(0.0);  // per volume
+    SolveCounter<Real> solves;    // of this set: one made from it in another kind of number does not count
     std::array<Crack<Real>, most_cracks> cracks;
 
     CrackSet(const CrackLaw& law, const CrackControl& control, const KindStiffness<kind>& stiffness)
@@ -36,6 +37,7 @@ class CrackSet {
         const int steps = control_.substeps();
         Stress<kind, Real> change = elastic(strain);
         if (steps > 1) change = Real(1.0 / steps) * change;
+        if (steps > 1) solves.count_substeps(steps);
         for (int j = 0; j < count; ++j) frame(j).set(at(j).n, stiffness_);
         for (int i = 0; i < steps; ++i) {
             const CrackStatus status = step(change);
@@ -172,7 +174,7 @@ class CrackSet {
             return value_of(decohesion(k, f.stresses(stress), Real(1.0))) > decohesion_tolerance;
         }
         if (is_certainly_intact<kind, Real>(k, stress)) return false;
-        const CriticalPlane<Real> last = critical_plane<kind, Real>(k, stress);
+        const CriticalPlane<Real> last = critical_plane<kind, Real>(k, stress, solves);
         if (!(value_of(last.F) > decohesion_tolerance)) return false;
         next.n = last.n;
         if constexpr (kind != AnalysisKind::uniaxial) {
@@ -205,6 +207,7 @@ class CrackSet {
             return Residual<double>{F.value, F.slope[0]};
         };
         const auto root = solve_bracketed<Slope::increasing>(largest_F, 0.0, 1.0, 1.0, 1e-14 * rise + rounding);
+        solves.count(root);
         CrackSet at_event(*this);
         const auto plane = [&](const Real& part) {
             at_event.trial_ = start + part * change;
@@ -238,13 +241,14 @@ class CrackSet {
         } else {
             if (count <= 1) {
                 if (count == 1)
-                    jump(0) = crack_jump(law_, frame(0).stresses(trial_), start_opening(0), at(0).phase >= 2);
+                    jump(0) = crack_jump(law_, frame(0).stresses(trial_), start_opening(0), at(0).phase >= 2, solves);
                 sum_up();
                 return CrackStatus::done;
             }
             const bool converged = iterate();
             sum_up();
             unconverged = !converged;
+            if (!converged) solves.count(0, 1);
             return converged || control_.accepts_unconverged ? CrackStatus::done : CrackStatus::unconverged;
         }
     }
@@ -312,7 +316,7 @@ class CrackSet {
             bool same = true;
             for (int j = 0; j < count; ++j) {
                 const CrackJump<double> old = jump(j);
-                jump(j) = crack_jump(law_, trial(j), start_opening(j), at(j).phase >= 2 || latched[index(j)]);
+                jump(j) = crack_jump(law_, trial(j), start_opening(j), at(j).phase >= 2 || latched[index(j)], solves);
                 latched[index(j)] = latched[index(j)] || (sweep >= latching && jump(j).has_failed());
                 change = std::max(change, difference(old, jump(j)));
                 same = same && old.response == jump(j).response;
@@ -344,7 +348,7 @@ class CrackSet {
             for (int j = 0; j < count; ++j) {
                 const PlaneStresses<double> s = trial(j);
                 const double u = start_opening(j);
-                next[index(j)] = crack_jump(law_, s, u, at(j).phase >= 2 || latched[index(j)]);
+                next[index(j)] = crack_jump(law_, s, u, at(j).phase >= 2 || latched[index(j)], solves);
                 if (next[index(j)].response != saved[index(j)].response) {
                     jumps_ = saved;
                     return false;
@@ -375,7 +379,7 @@ class CrackSet {
     CrackStatus cut() {
         stress = trial_;
         for (int j = 0; j < count; ++j) {
-            if (!cutting_plane(law_, frame(j).stresses(stress), start_opening(j), at(j).phase >= 2, jump(j)))
+            if (!cutting_plane(law_, frame(j).stresses(stress), start_opening(j), at(j).phase >= 2, jump(j), solves))
                 return CrackStatus::no_cutting_plane;
             if (jump(j).response != CrackResponse::elastic) stress = stress - released(j, jump(j));
         }

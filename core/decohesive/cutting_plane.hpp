@@ -9,7 +9,7 @@ namespace lode {
 // plane through it does not lead back to the surface.
 template <class Real>
 bool cutting_plane(const CrackLaw& law, const PlaneStresses<Real>& start, const Real& u, bool has_failed,
-                   CrackJump<Real>& d) {
+                   CrackJump<Real>& d, const SolveCounter<Real>& solves) {
     d = CrackJump<Real>::none();
     const DecohesionConstants& k = law.strength;
     const Real x_f = law.u_0 - u;
@@ -19,6 +19,7 @@ bool cutting_plane(const CrackLaw& law, const PlaneStresses<Real>& start, const 
             const Real f = law.softening(Real(u + d.n));
             if (!(decohesion(k, s, f) > Real(decohesion_tolerance))) return true;
             if (iteration == 100) return false;
+            solves.count(1);
             d.response = CrackResponse::softening;
             Real N(k.inverse_tau_nf), F = decohesion(k, s, f), F_f(-1.0), along = law.A_n * N, shear = Real(0.0);
             double sliding = 0.0;

@@ -310,6 +310,7 @@ struct ElasticDecohesive {
         CrackSet<kind, Real> set(law, rules, stiffness);
         load(point.state, rotation, set);
         set.stress = point.stress;
+        set.solves = point.solves;
         const Stress<kind, Real> trial = point.stress + moduli.stress<kind>(strain);
         for (int i = 0; i < components(kind); ++i)
             if (!(abs(trial[i]) < Real(largest_stress * strength.f_c))) {

@@ -127,7 +127,7 @@ inline constexpr lode_model description = {
         "crack starts; the crack is smeared over the element and softens in opening and shear.",
     .source = "Sanchez, sections 2.3-2.4, 3.5.2-3.5.4, 4.5, 5.2.1, 5.5 and appendix C",
     .kinds = continuum_kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_OPEN_ENERGY,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_USES_CELENT | LODE_OPEN_ENERGY | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 7,

@@ -121,7 +121,7 @@ struct MohrCircle {
     }
 
     // The angle of the largest F in [0, 90] degrees, in radians.
-    Real best_angle() const {
+    Real best_angle(const SolveCounter<Real>& solves) const {
         constexpr double right_angle = 1.5707963267948966192, spacing = right_angle / (samples - 1), inside = 1e-4;
         if (k.rankine || !(value_of(r) > 0.0)) return Real(0.0);
         const MohrCircle<double> plain{k, value_of(c), value_of(r), value_of(I_1), value_of(I_2)};
@@ -140,6 +140,7 @@ struct MohrCircle {
         };
         const double tolerance = std::numeric_limits<double>::epsilon() * std::max(at_lower, -at_upper);
         const auto root = solve_bracketed<Slope::decreasing>(slope_of, lower, upper, best * spacing, tolerance);
+        solves.count(root);
         if constexpr (is_differentiated<Real>) {
             const Real at = slope(Real(root.x));
             return root.x - (at - Real(value_of(at))) * (1.0 / root.last.slope);
@@ -165,7 +166,8 @@ inline Vector<Real, 3> axis_across(const Vector<Real, 3>& v) {
 
 // The largest F of a virgin plane and the normal of that plane; of equal ones the page's choice.
 template <AnalysisKind kind, class Real>
-inline CriticalPlane<Real> critical_plane(const DecohesionConstants& k, const Stress<kind, Real>& s) {
+inline CriticalPlane<Real> critical_plane(const DecohesionConstants& k, const Stress<kind, Real>& s,
+                                          const SolveCounter<Real>& solves = {}) {
     using namespace orientation_detail;
     using std::atan2;
     CriticalPlane<Real> plane;
@@ -201,7 +203,7 @@ inline CriticalPlane<Real> critical_plane(const DecohesionConstants& k, const St
             e_1 = first_two ? axis_across(e_3) : column(0);
         }
         const MohrCircle<Real> circle{k, 0.5 * (s_1 + s_3), 0.5 * (s_1 - s_3), trace(s), second_invariant(tensor)};
-        const Real theta = circle.best_angle();
+        const Real theta = circle.best_angle(solves);
         plane.n = oriented<Real>(Real(cos(theta)) * e_1 + Real(sin(theta)) * e_3);
     } else {
         constexpr int shear = normal_components(kind);
@@ -217,7 +219,7 @@ inline CriticalPlane<Real> critical_plane(const DecohesionConstants& k, const St
         }
         const Real sum = s[0] + s[1], minor = s[0] * s[1] - s[shear] * s[shear];
         const MohrCircle<Real> circle{k, 0.5 * sum, r, sum + out_of_plane, minor + sum * out_of_plane};
-        const Real angle = phi + circle.best_angle();
+        const Real angle = phi + circle.best_angle(solves);
         plane.n[0] = cos(angle);
         plane.n[1] = sin(angle);
         plane.n[2] = Real(0.0);

@@ -63,9 +63,9 @@ struct Kernel {
         if constexpr (has_shear) {
             inverse2 = square(reciprocal_cbrt(J));
             const auto trial = k.b + finite_j2::congruence<kind>(f, cpi);
-            r = plasticity.respond(trial, Real(c.shear), inverse2, J, alpha, law);
+            r = plasticity.respond(trial, Real(c.shear), inverse2, J, alpha, law, point.solves);
             d = Real(1.0 / c.shear) * r.s;
-            excess = finite_j2::mean_excess(d);
+            excess = finite_j2::mean_excess(d, point.solves);
             work = r.dalpha * r.measure * r.K;
         }
 

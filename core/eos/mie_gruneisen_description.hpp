@@ -90,7 +90,7 @@ inline constexpr lode_model description = {
         "adiabatic, with a neo-Hookean deviator and J2 plasticity.",
     .source = "Nairn, chapter 9, section 9.10 (eqs. 9.94-9.115)",
     .kinds = served,
-    .traits = LODE_FINITE_STRAIN | LODE_UNSYMMETRIC | LODE_HISTORY_STRESS | LODE_EQUATION_OF_STATE,
+    .traits = LODE_FINITE_STRAIN | LODE_UNSYMMETRIC | LODE_HISTORY_STRESS | LODE_EQUATION_OF_STATE | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 4,

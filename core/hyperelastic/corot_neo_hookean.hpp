@@ -48,7 +48,7 @@ struct CorotNeoHookean {
             "three dilatational energies.",
         .source = "Nairn, chapter 9, section 9.8 (eqs. 9.71-9.90)",
         .kinds = served,
-        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS,
+        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 2,
@@ -93,7 +93,8 @@ struct CorotNeoHookean {
 
         if constexpr (is_plane_stress) {
             if (all(valid)) {
-                valid = solve_thickness_stretch(k) && k.h(2, 2) > Real(-1.0);  // F33M1 = -1: thinner than rounding
+                valid = solve_thickness_stretch(k, point.solves) &&
+                        k.h(2, 2) > Real(-1.0);  // F33M1 = -1: thinner than rounding
                 if (!all(valid)) return point.fail(!valid, "no thickness stretch makes the stress 33 vanish");
             }
         }
@@ -131,7 +132,8 @@ struct CorotNeoHookean {
     // x = F33* of plane stress, 2 G x (x - 1) + J U' = 0, with q and p = 1 + q the change and ratio of the area
     // (section 4.1); d = x - 1. False where there is no solution, which takes NU < 0.
     template <class Real>
-    LODE_INLINE Mask<Real> solve_thickness_stretch(Kinematics<AnalysisKind::plane_stress, Real>& k) const {
+    LODE_INLINE Mask<Real> solve_thickness_stretch(Kinematics<AnalysisKind::plane_stress, Real>& k,
+                                                   const SolveCounter<Real>& solves) const {
         const double G = shear, lambda = dilatation.modulus;
         const Real q = k.j, p = k.jacobian, p2 = p * p;
         if (dilatation.option == 1) {  // (9.85): linear in x
@@ -164,6 +166,7 @@ struct CorotNeoHookean {
         };
         const Root<Real> root =
             solve_bracketed<Slope::increasing>(residual_of, lower, upper, start, 1e-15 * abs(lambda * area), solvable);
+        solves.count(root);
         set_thickness(k, exp(root.x), expm1(root.x));
         return solvable && root.converged;
     }

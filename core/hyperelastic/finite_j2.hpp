@@ -85,8 +85,8 @@ struct StaticFlow {
     }
     template <class Real>
     LODE_INLINE Return<Real> solve(const Real& q, const Real& stiffness, const Real& alpha, const FlowStress<Real>& k,
-                                   const Mask<Real>& where) const {
-        return ReturnToYield<Curve, Real>(curve, stiffness)(q, alpha, Real(1.0), k, where);
+                                   const Mask<Real>& where, const SolveCounter<Real>& solves = {}) const {
+        return ReturnToYield<Curve, Real>(curve, stiffness)(q, alpha, Real(1.0), k, where, solves);
     }
 };
 // HLAW = -1.
@@ -115,7 +115,8 @@ struct Plasticity {
     // Steps 2 to 5 from the trial be - I. `shear` is mu = Jres G, `inverse2` J*^(-2/3), `J` the total volume ratio.
     template <AnalysisKind kind, class Real, class Law>
     LODE_INLINE Isochoric<kind, Real> respond(const Stress<kind, Real>& trial, const Real& shear, const Real& inverse2,
-                                              const Real& J, const Real& alpha, const Law& law) const {
+                                              const Real& J, const Real& alpha, const Law& law,
+                                              [[maybe_unused]] const SolveCounter<Real>& solves = {}) const {
         Isochoric<kind, Real> r;
         const Real modulus = shear * inverse2;
         r.s_trial = modulus * deviator(trial);
@@ -133,7 +134,7 @@ struct Plasticity {
             }
             r.yields = q - k.value > yield_tolerance * max(q, k.value);
             if (any(r.yields)) {
-                const auto result = law.solve(q, stiffness, alpha, k, r.yields);
+                const auto result = law.solve(q, stiffness, alpha, k, r.yields, solves);
                 r.dalpha = select(r.yields, result.dalpha, Real(0.0));
                 r.K = result.flow.value;
                 r.slope = result.flow.slope;
@@ -211,16 +212,18 @@ struct Plasticity {
 // convex right of -1: Newton's method from p/3 steps to its right at the latest in the first iteration and then
 // descends.
 template <AnalysisKind kind, class Real>
-LODE_INLINE Real mean_excess(const Stress<kind, Real>& d) {
+LODE_INLINE Real mean_excess(const Stress<kind, Real>& d, const SolveCounter<Real>& solves) {
     const Real p = 0.5 * double_contraction(d, d), det = determinant_of(d);
     Real w = (1.0 / 3.0) * p;
-    for (int iteration = 0; iteration < 60; ++iteration) {
+    int iteration = 1;
+    for (; iteration <= 60; ++iteration) {
         const Real value = ((w + 3.0) * w + (3.0 - p)) * w - p + det;
         const Real step = value / ((3.0 * w + 6.0) * w + (3.0 - p));
         w = w - step;
         if (all(abs(step) <= 1e-8 * abs(w))) break;
         if (all(abs(step) <= Real(1e-160))) break;
     }
+    solves.count(iteration);
     return w;
 }
 

@@ -28,9 +28,10 @@ struct JohnsonCookFlow {
             return k;
         }
         LODE_INLINE ReturnResult<Real> solve(const Real& q, const Real& stiffness, const Real& alpha,
-                                             const FlowStress<Real>& k, const Mask<Real>& where) const {
+                                             const FlowStress<Real>& k, const Mask<Real>& where,
+                                             const SolveCounter<Real>& solves = {}) const {
             auto end = now;  // what the law notes there is not needed
-            return law.solve_along(stiffness, Real(1.0 / stiffness), end, q, alpha, k, where);
+            return law.solve_along(stiffness, Real(1.0 / stiffness), end, q, alpha, k, where, solves);
         }
         // dK/dtemperature at fixed dalpha.
         LODE_INLINE Real temperature_slope(const Real& alpha, const Real& dalpha, const Real& K) const {

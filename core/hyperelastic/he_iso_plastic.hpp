@@ -52,7 +52,8 @@ struct Kernel {
         if constexpr (kind == AnalysisKind::plane_stress) {
             const ThicknessEquation<Real, decltype(law)> equation{*this,      law,   trial,     cpi[2], k.j,
                                                                   k.jacobian, shear, expansion, alpha};
-            const auto root = solve_thickness(equation, thickness_of_state(f33m1, e), equation.scale(k.b));
+            const auto root =
+                solve_thickness(equation, thickness_of_state(f33m1, e), equation.scale(k.b), point.solves);
             if (!all(root.converged)) [[unlikely]]
                 return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
             set_thickness(k, 1.0 + root.d, root.d);
@@ -63,12 +64,12 @@ struct Kernel {
         const VolumeRatio<Real> v = c.dilatation.volume_ratio(k.j, k.jacobian);
         const Real inverse2 = square(reciprocal_cbrt(v.J)), J = expansion * v.J;
         const Real inverse_J = v.inverse / expansion;
-        const auto r = plasticity.respond(trial, shear, inverse2, J, alpha, law);
+        const auto r = plasticity.respond(trial, shear, inverse2, J, alpha, law, point.solves);
 
         auto stress = inverse_J * r.s;
         add_to_normals(stress, 3, c.dilatation.derivative(v));
         const auto d = (1.0 / shear) * r.s;  // dev(bbar)
-        const Real excess = finite_j2::mean_excess(d);
+        const Real excess = finite_j2::mean_excess(d, point.solves);
         point.elastic_energy = v.inverse * (c.dilatation.energy(v) + 1.5 * c.moduli.shear * excess);
         const Real work = r.dalpha * r.measure * r.K;
         Real dissipated(0.0);

@@ -81,7 +81,7 @@ inline constexpr lode_model description = {
         "paths and nothing depends on an objective rate, with isotropic hardening.",
     .source = "Nairn, chapter 9, section 9.11 (eqs. 9.116-9.130)",
     .kinds = served,
-    .traits = LODE_FINITE_STRAIN | LODE_UNSYMMETRIC | LODE_HISTORY_STRESS,
+    .traits = LODE_FINITE_STRAIN | LODE_UNSYMMETRIC | LODE_HISTORY_STRESS | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 4,

@@ -49,7 +49,7 @@ struct MooneyRivlin {
             "a neo-Hookean solid. Thermal and moisture expansion and three dilatational energies.",
         .source = "Nairn, chapter 9, section 9.6 (eqs. 9.48-9.56)",
         .kinds = served,
-        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS,
+        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 2,
@@ -174,7 +174,8 @@ struct MooneyRivlin {
             const Mask<Real> possible = k.jacobian > Real(0.0) && is_finite(trace(k.b));
             if (all(possible)) {
                 const ThicknessEquation<Real> equation(shear1, shear2, dilatation, k);
-                const auto root = solve_thickness(equation, thickness_of_state(state[2], e), equation.scale());
+                const auto root =
+                    solve_thickness(equation, thickness_of_state(state[2], e), equation.scale(), point.solves);
                 if (!all(root.converged))
                     return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
                 set_thickness(k, 1.0 + root.d, root.d);

@@ -47,7 +47,7 @@ struct NeoHookean {
             "solid under large rotation; with thermal and moisture expansion and three dilatational energies.",
         .source = "Nairn, chapter 9, section 9.7 (eqs. 9.57-9.70)",
         .kinds = served,
-        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS,
+        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 2,
@@ -93,7 +93,7 @@ struct NeoHookean {
         if constexpr (is_plane_stress) {
             Mask<Real> solved = k.jacobian > Real(0.0) && is_finite(trace(k.b));
             if (all(solved)) {
-                solved = solve_thickness(k);
+                solved = solve_thickness(k, point.solves);
                 if (!all(solved)) return point.fail(!solved, "no thickness stretch makes the stress 33 vanish");
             }
         }
@@ -159,7 +159,8 @@ struct NeoHookean {
     // F33* - 1 of plane stress, G b33 + J U' = 0, with q and p = 1 + q the change and ratio of the area (section 3.1).
     // False where there is no solution, which takes NU < 0.
     template <class Real>
-    LODE_INLINE Mask<Real> solve_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k) const {
+    LODE_INLINE Mask<Real> solve_thickness(Kinematics<AnalysisKind::plane_stress, Real>& k,
+                                           const SolveCounter<Real>& solves) const {
         const double G = shear, lambda = dilatation.modulus;
         const Real q = k.j, p = k.jacobian, p2 = p * p;
         if (dilatation.option == 0) {  // (9.68): linear in b33
@@ -194,6 +195,7 @@ struct NeoHookean {
         };
         const Root<Real> root =
             solve_bracketed<Slope::increasing>(residual_of, lower, upper, upper, 1e-15 * abs(lambda * area), solvable);
+        solves.count(root);
         set_thickness(k, exp(root.x), expm1(root.x));
         return solvable && root.converged;
     }

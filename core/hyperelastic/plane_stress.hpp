@@ -53,12 +53,14 @@ template <class Real, class F>
 // derivative by y. Newton from `start`; the search above takes the lanes in which the steps do not shrink. `scale` is
 // the size of the in-plane strain: the last step is below 1e-8 of it, what is left after it is of its square.
 template <class Real, class F>
-LODE_INLINE ThicknessStretch<Real> solve_thickness(const F& residual, const Real& start, const Real& scale) {
+LODE_INLINE ThicknessStretch<Real> solve_thickness(const F& residual, const Real& start, const Real& scale,
+                                                   const SolveCounter<Real>& solves) {
     constexpr int newton_limit = 9;
     const Real tolerance = 1e-8 * min(scale, Real(1.0));
     Real y = start, last(1.0);
     Mask<Real> done(false), regular = is_finite(start) && is_finite(scale);
-    for (int iteration = 0; iteration < newton_limit; ++iteration) {
+    int iteration = 1;
+    for (; iteration <= newton_limit; ++iteration) {
         const Residual<Real> r = residual(y);
         const Real step = r.value / r.slope;
         // A root that Newton approaches, from a side where the residual increases.
@@ -74,9 +76,11 @@ LODE_INLINE ThicknessStretch<Real> solve_thickness(const F& residual, const Real
         last = select(go_on, max(0.7 * abs(step), tolerance), last);
         if (!is_differentiated<Real> && all(done || !regular)) break;
     }
+    solves.count(iteration);
     if (!all(done)) [[unlikely]] {
         const Mask<Real> active = !done && is_finite(start) && is_finite(scale);
         const Root<Real> root = thickness_detail::search<Real, F>(residual, start, Real(1e-7 * tolerance), active);
+        solves.count(root.iterations, root.iterations);  // none of them is Newton's from the start
         y = select(active, root.x, y);
         done = done || root.converged;
     }

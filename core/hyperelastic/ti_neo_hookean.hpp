@@ -64,7 +64,7 @@ struct TiNeoHookean : TiNeoHookeanDescription {
         if constexpr (is_plane_stress) {
             Mask<Real> solved = k.jacobian > Real(0.0) && is_finite(trace(k.b));
             if (all(solved)) {
-                solved = solve_thickness_stretch(k, thickness_of_state(f33m1, thickness_residual));
+                solved = solve_thickness_stretch(k, thickness_of_state(f33m1, thickness_residual), point.solves);
                 if (!all(solved)) return point.fail(!solved, "no thickness stretch makes the stress 33 vanish");
             }
         }
@@ -235,8 +235,8 @@ struct TiNeoHookean : TiNeoHookeanDescription {
 
     // Completes the kinematics by the thickness stretch of plane stress (section 5.1). False where there is none.
     template <class Real>
-    LODE_INLINE Mask<Real> solve_thickness_stretch(Kinematics<AnalysisKind::plane_stress, Real>& k,
-                                                   const Real& start) const {
+    LODE_INLINE Mask<Real> solve_thickness_stretch(Kinematics<AnalysisKind::plane_stress, Real>& k, const Real& start,
+                                                   const SolveCounter<Real>& solves) const {
         const double G = shear, lambda = dilatation.modulus;
         const Real q = k.j, p = k.jacobian, p2 = p * p;
         if (is_normal || dilatation.option == 2) {
@@ -244,7 +244,8 @@ struct TiNeoHookean : TiNeoHookeanDescription {
             const Real in_plane = 2.0 * (axis[0] * u0 + axis[1] * u1) + (u0 * u0 + u1 * u1);
             const ThicknessEquation<Real> equation{
                 G, al, be, ga, dilatation, is_normal, q, p, k.log_jacobian(), is_normal ? Real(0.0) : in_plane};
-            const auto root = solve_thickness(equation, start, Real(abs(q) + abs(k.b[0]) + abs(k.b[1]) + abs(k.b[3])));
+            const auto root =
+                solve_thickness(equation, start, Real(abs(q) + abs(k.b[0]) + abs(k.b[1]) + abs(k.b[3])), solves);
             set_thickness(k, 1.0 + root.d, root.d);
             return root.converged;
         }

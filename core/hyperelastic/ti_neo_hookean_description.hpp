@@ -61,7 +61,7 @@ struct TiNeoHookeanDescription {
             "solid. Anisotropic thermal and moisture expansion.",
         .source = "Nairn, chapter 9, section 9.9 (eqs. 9.91-9.93)",
         .kinds = served,
-        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS,
+        .traits = LODE_FINITE_STRAIN | LODE_ELASTIC | LODE_HISTORY_STRESS | LODE_ITERATES,
         .parameters = parameters,
         .parameter_count = count_of(parameters),
         .required_count = 5,

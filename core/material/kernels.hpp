@@ -90,6 +90,7 @@ LODE_INLINE void umat_point(const Kernel& kernel, const UmatArguments& a, CallSt
     increment.element_length_source = a.celent;
     increment.rotation_source = a.drot;
     point.state = State<double>(a.statev, a.statev, 1, a.nstatv);
+    point.solves = SolveCounter<double>(status.solves);
 
     std::memset(a.ddsddt, 0, n * sizeof(double));
     std::memset(a.drplde, 0, n * sizeof(double));

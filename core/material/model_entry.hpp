@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "lode/lode.h"
 #include "lode/material/kind.hpp"
 #include "lode/material/properties.hpp"
 
@@ -33,6 +34,7 @@ struct CallStatus {
     const char* warning = nullptr;  // static text
     double time_step_ratio = 1.0;   // PNEWDT wanted with a failure
     int failed_point = 0;           // VUMAT: 1-based index in the block
+    lode_observation solves{};      // UMAT
     const char* refusal = nullptr;  // with a failure: what `failure` names must be this; the analysis ends
     double refused_value = 0.0, refused_limit = 0.0;
 };

@@ -9,6 +9,7 @@
 
 #include "lode/material/kind.hpp"
 #include "lode/numerics/scalar.hpp"
+#include "lode/numerics/solve_counter.hpp"
 #include "lode/tensor/matrix3.hpp"
 #include "lode/tensor/voigt.hpp"
 
@@ -139,11 +140,12 @@ template <AnalysisKind kind, class Real>
 struct Point {
     Stress<kind, Real> stress;  // in: start of the increment, in the frame of its end; out: end
     State<Real> state;
-    Real elastic_energy = Real(0.0);              // out: at the end (SSE)
-    Real plastic_dissipation = Real(0.0);         // out: of this increment (added to SPD)
-    Real viscous_dissipation = Real(0.0);         // out: of this increment (added to SCD)
-    Real thickness_strain_increment = Real(0.0);  // out, plane stress
-    bool wants_thickness_strain = false;          // some models pay for it
+    Real elastic_energy = Real(0.0);                  // out: at the end (SSE)
+    Real plastic_dissipation = Real(0.0);             // out: of this increment (added to SPD)
+    Real viscous_dissipation = Real(0.0);             // out: of this increment (added to SCD)
+    Real thickness_strain_increment = Real(0.0);      // out, plane stress
+    bool wants_thickness_strain = false;              // some models pay for it
+    [[no_unique_address]] SolveCounter<Real> solves;  // every solve reports here
 
     // The increment cannot be done in the lanes of `where`: nothing has been written. UMAT asks for `smaller` times the
     // increment, VUMAT stops with `reason`.

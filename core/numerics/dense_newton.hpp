@@ -87,6 +87,7 @@ struct NewtonResult {
     NewtonStatus status;
     int iterations;   // Newton steps
     double residual;  // largest |r_i| reached
+    int safeguards;   // steps halved
     bool converged() const { return status == NewtonStatus::converged; }
 };
 
@@ -126,7 +127,7 @@ inline NewtonResult<Real, n> solve_dense_newton(const System& system, const Dens
     DenseMatrix<double, n> jacobian;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = value_of(start[i]);
     NewtonStatus status = NewtonStatus::iteration_limit;
-    int iterations = 0;
+    int iterations = 0, halved = 0;
     double size = std::numeric_limits<double>::infinity();
     if (!evaluate(x, r, jacobian)) status = NewtonStatus::outside_domain;
     else {
@@ -149,6 +150,7 @@ inline NewtonResult<Real, n> solve_dense_newton(const System& system, const Dens
             for (int h = 0; h <= halvings && !accepted; ++h, length *= 0.5) {
                 DenseVector<double, n> trial, r_trial;
                 for (std::size_t i = 0; i < x.size(); ++i) trial[i] = x[i] - length * step[i];
+                if (h > 0) ++halved;
                 if (!evaluate(trial, r_trial, jacobian) || !(merit(r_trial) <= (1.0 - 2e-4 * length) * old)) continue;
                 x = trial;
                 r = r_trial;
@@ -161,7 +163,7 @@ inline NewtonResult<Real, n> solve_dense_newton(const System& system, const Dens
         }
     }
 
-    NewtonResult<Real, n> result{{}, status, iterations, size};
+    NewtonResult<Real, n> result{{}, status, iterations, size, halved};
     for (std::size_t i = 0; i < x.size(); ++i) result.x[i] = Real(x[i]);
     if constexpr (is_differentiated<Real>) {
         if (status == NewtonStatus::converged) {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "lode/numerics/scalar.hpp"
+#include "lode/numerics/solve_counter.hpp"
 
 namespace lode {
 
@@ -31,6 +32,7 @@ struct Root {
     Mask<Real> converged;  // true in lanes that were not active
     int iterations;        // evaluations of the residual
     R last;                // what the residual returned at x
+    int safeguards = 0;    // steps that were not Newton's; not counted in batches
 };
 
 // What the caller knows of the sign at the ends. `unknown` costs one more evaluation, and only if Newton is not enough.
@@ -166,6 +168,7 @@ struct Progress {
     Real newton;              // the next iterate, if it is `good`
     Mask<Real> done, good, found;
     int iteration;
+    int safeguards = 0;  // steps so far that were not Newton's, of a lane by itself
 };
 
 // One iteration where Newton alone is not enough. Out of line, and everything else by value, so that the common path
@@ -178,6 +181,7 @@ template <class Real>
     guard.active = guard.active || guarded;
     Real next = at.x, last = at.previous;
     const M closed = guarded_step(guard, guarded, at.iteration, at.residual, at.newton, next, last);
+    if constexpr (!is_batch<Real>) at.safeguards += guarded && !closed && next != at.newton ? 1 : 0;
     at.x = select(at.done, at.x, select(plain, at.newton, next));
     at.previous = select(plain, abs(at.residual.value), last);
     at.done = at.done || closed;
@@ -198,20 +202,22 @@ LODE_INLINE auto solve(const F& residual, const Real& lower, const Real& upper, 
     Real previous(infinity);
     M done = !active, found = done;
     std::optional<Guard<Real>> guard;
+    int safeguards = 0;
     for (int iteration = 1;; ++iteration) {
         const R r = residual(x);
         const Real size = abs(r.value);
         const M small = !done && size <= tolerance;
         done = done || small;
         found = found || small;
-        if (all(done) || iteration >= max_iterations) return Root<Real, R>{x, found, iteration, r};
+        if (all(done) || iteration >= max_iterations) return Root<Real, R>{x, found, iteration, r, safeguards};
         const Real newton = newton_iterate(x, r);
         const M good = newton >= lower && newton <= upper && size <= 0.5 * previous;
         if (guard || iteration > unguarded || !all(done || good)) [[unlikely]] {
             if (!guard) guard.emplace(lower, upper, direction);
-            const Progress<Real> next =
-                advance<Real>(*guard, {x, previous, {r.value, r.slope}, newton, done, good, found, iteration});
+            const Progress<Real> next = advance<Real>(
+                *guard, {x, previous, {r.value, r.slope}, newton, done, good, found, iteration, safeguards});
             x = next.x, previous = next.previous, done = next.done, found = next.found;
+            safeguards = next.safeguards;
         } else {
             x = select(done, x, newton);
             previous = size;
@@ -243,7 +249,7 @@ LODE_INLINE auto solve_bracketed(const F& residual, const Real& lower, const Rea
             plain, value_of(lower), value_of(upper), value_of(start), value_of(tolerance), true, max_iterations);
         const R r = residual(Real(root.x));
         const Real x = Real(root.x) - (r.value - Real(value_of(r.value))) / Real(value_of(r.slope));
-        return Root<Real, R>{x, root.converged, root.iterations, residual(x)};
+        return Root<Real, R>{x, root.converged, root.iterations, residual(x), root.safeguards};
     } else {
         return root_detail::solve<direction, Real>(residual, lower, upper, start, tolerance, active, max_iterations);
     }

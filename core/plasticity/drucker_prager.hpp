@@ -63,11 +63,11 @@ class Kernel {
 
         if (c.substeps > 1) [[unlikely]] {
             // Copies, so that the point itself stays in registers on the other way.
-            const Course<kind, Real> done = in_substeps(point.stress, course, tangent);
+            const Course<kind, Real> done = in_substeps(point.stress, course, tangent, point.solves);
             course = done;
             point.stress = done.stress;
         } else {
-            integrate(point.stress, course, tangent);
+            integrate(point.stress, course, tangent, point.solves);
         }
 
         point.elastic_energy = course.energy;
@@ -121,13 +121,14 @@ class Kernel {
 
     // One backward Euler step of three normal components, page steps 1 to 4.
     template <AnalysisKind kind, class Real, class T>
-    LODE_INLINE void integrate(Stress<kind, Real>& stress, Course<kind, Real>& course, T& tangent) const {
+    LODE_INLINE void integrate(Stress<kind, Real>& stress, Course<kind, Real>& course, T& tangent,
+                               const SolveCounter<Real>& solves) const {
         constexpr int n = components(kind);
         const double G = c.elastic.shear, K = c.elastic.bulk;
         const Real p_trial = pressure(stress) - K * trace(course.strain);
         const Stress<kind, Real> s_trial = deviator(stress) + Real(2.0 * G) * deviator(course.strain);
         const Real q_trial = sqrt(0.5 * double_contraction(s_trial, s_trial));
-        const ConeStep<Real> end = cone_return(q_trial, p_trial, course.alpha, course.scale, course.cohesion);
+        const ConeStep<Real> end = cone_return(q_trial, p_trial, course.alpha, course.scale, course.cohesion, solves);
 
         const Real theta = 1.0 - end.loss;
         for (int i = 0; i < n; ++i) stress[i] = i < 3 ? theta * s_trial[i] - end.p : theta * s_trial[i];
@@ -180,12 +181,13 @@ class Kernel {
     // One backward Euler step of plane stress.
     template <class Real, class T>
     LODE_INLINE void integrate(Stress<AnalysisKind::plane_stress, Real>& stress,
-                               Course<AnalysisKind::plane_stress, Real>& course, T& tangent) const {
+                               Course<AnalysisKind::plane_stress, Real>& course, T& tangent,
+                               const SolveCounter<Real>& solves) const {
         const Real start_sum = stress[0] + stress[1];
         stress += c.elastic.stress<AnalysisKind::plane_stress>(course.strain);
         const Real S = stress[0] + stress[1], D = stress[1] - stress[0], tau = stress[2];
         const Real T_trial = 0.25 * (D * D) + tau * tau;
-        const PlaneStep<Real> end = plane_return(S, T_trial, course.alpha, course.scale, course.cohesion);
+        const PlaneStep<Real> end = plane_return(S, T_trial, course.alpha, course.scale, course.cohesion, solves);
         if constexpr (wants_tangent<T>) set_plane_tangent(S, D, tau, T_trial, end, course, tangent);
 
         const Real inverse_b = 1.0 / end.b, share = end.t * inverse_b;
@@ -238,24 +240,25 @@ class Kernel {
 
     // METHOD 2.
     template <AnalysisKind kind, class Real>
-    LODE_INLINE void take_substeps(Course<kind, Real>& course) const {
+    LODE_INLINE void take_substeps(Course<kind, Real>& course, const SolveCounter<Real>& solves) const {
         NoTangent none;
         const Strain<kind, Real> whole = course.strain;
         course.strain = Real(1.0 / c.substeps) * course.strain;
-        for (int k = 0; k < c.substeps; ++k) integrate(course.stress, course, none);
+        solves.count_substeps(c.substeps);
+        for (int k = 0; k < c.substeps; ++k) integrate(course.stress, course, none, solves);
         course.strain = whole;
     }
     template <AnalysisKind kind, class Real>
-    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course,
-                                                     NoTangent&) const {
+    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, NoTangent&,
+                                                     SolveCounter<Real> solves) const {
         course.stress = stress;
-        take_substeps(course);
+        take_substeps(course, solves);
         return course;
     }
     // With a tangent: the same substeps on numbers that carry their derivatives.
     template <AnalysisKind kind>
     [[gnu::noinline]] Course<kind, double> in_substeps(Stress<kind, double> stress, Course<kind, double> course,
-                                                       Tangent<kind>& tangent) const {
+                                                       Tangent<kind>& tangent, SolveCounter<double> solves) const {
         constexpr int n = components(kind);
         Course<kind, Sensitive> sensitive;
         for (int i = 0; i < n; ++i) {
@@ -266,7 +269,7 @@ class Kernel {
         sensitive.alpha = course.alpha;
         sensitive.scale = course.scale;
         sensitive.cohesion = {course.cohesion.value, course.cohesion.slope, course.cohesion.curvature};
-        take_substeps(sensitive);
+        take_substeps(sensitive, SolveCounter<Sensitive>(solves));
         const Sensitive heat = c.thermal.plastic_heat(sensitive.heat, sensitive.work);
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) tangent(i, j) = sensitive.stress[i](j);

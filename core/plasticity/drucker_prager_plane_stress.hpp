@@ -53,7 +53,7 @@ class PlaneReturn {
     // S = s11 + s22 and T = D^2/4 + tau^2 of the trial stress, `c` at the start.
     template <class Real>
     LODE_INLINE PlaneStep<Real> operator()(const Real& S, const Real& T, const Real& alpha, const Real& scale,
-                                           const FlowStress<Real>& c) const {
+                                           const FlowStress<Real>& c, const SolveCounter<Real>& solves = {}) const {
         const Real one(1.0), zero(0.0);
         const Real q_trial = sqrt((1.0 / 12.0) * (S * S) + T), pressure = (cone_.eta / 3.0) * S;
         const Real driving = inverse_xi_ * (q_trial + pressure), excess = driving - c.value;
@@ -68,6 +68,7 @@ class PlaneReturn {
         const Real start = select(end.yields, 1.0 - excess / select(end.yields, first.slope, one), one);
         const auto root =
             solve_bracketed<Slope::increasing>(residual, lower, one, start, return_tolerance * size, end.yields);
+        solves.count(root);
         // With what the iteration has left, so that the answer does not depend on where it stopped.
         const Trial<Real>& last = root.last;
         const Real left = -last.value / last.slope, dalpha = multiplied(root.x, last.q, last.q_slope) * left;

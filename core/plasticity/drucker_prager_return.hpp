@@ -58,7 +58,8 @@ class ConeReturn {
     // `c` at the start.
     template <class Real>
     LODE_INLINE ConeStep<Real> operator()(const Real& q_trial, const Real& p_trial, const Real& alpha,
-                                          const Real& scale, const FlowStress<Real>& c) const {
+                                          const Real& scale, const FlowStress<Real>& c,
+                                          const SolveCounter<Real>& solves = {}) const {
         const Real zero(0.0);
         // The yield condition over xi: driving <= c.
         const Real shear = inverse_xi_ * q_trial, pressure = eta_over_xi_ * p_trial, driving = shear - pressure;
@@ -74,7 +75,7 @@ class ConeReturn {
         end.p = p_trial;
         if (!any(end.yields)) return end;
 
-        auto cone = on_cone_(driving, alpha, scale, c, end.yields);
+        auto cone = on_cone_(driving, alpha, scale, c, end.yields, solves);
         finish(cone.dalpha, cone.flow, driving, unloading_);
         end.dalpha = select(end.yields, cone.dalpha, zero);
         end.cohesion.value = select(end.yields, cone.flow.value, c.value);
@@ -87,7 +88,7 @@ class ConeReturn {
         else end.at_apex = end.yields && q_trial < fall;
         end.volume = cone_.eta_bar * end.lambda;
         if (any(end.at_apex)) [[unlikely]]
-            return_to_apex(p_trial, alpha, scale, c, driving, end);
+            return_to_apex(p_trial, alpha, scale, c, driving, end, solves);
         end.q = q_trial - end.loss * q_trial;
         end.p = p_trial + K_ * end.volume;
         if (any(end.at_apex)) end.p = select(end.at_apex, -xi_over_eta_ * end.cohesion.value, end.p);
@@ -134,16 +135,17 @@ class ConeReturn {
     // dilatancy nothing hardens there. `end` holds what the cone says.
     template <class Real>
     LODE_INLINE void return_to_apex(const Real& p_trial, const Real& alpha, const Real& scale,
-                                    const FlowStress<Real>& c, const Real& driving, ConeStep<Real>& end) const {
+                                    const FlowStress<Real>& c, const Real& driving, ConeStep<Real>& end,
+                                    const SolveCounter<Real>& solves) const {
         const Mask<Real> apex = end.at_apex;
         const Real zero(0.0), tension = -eta_over_xi_ * p_trial;
         Real dalpha = zero, volume;
         FlowStress<Real> cohesion = c;
         if (cone_.eta_bar > 0.0) {
             if constexpr (Law::softens) {
-                soften_at_apex(tension, alpha, scale, c, driving, end, apex, dalpha, cohesion);
+                soften_at_apex(tension, alpha, scale, c, driving, end, apex, dalpha, cohesion, solves);
             } else {
-                const auto axis = on_axis_(tension, alpha, scale, c, apex);
+                const auto axis = on_axis_(tension, alpha, scale, c, apex, solves);
                 dalpha = axis.dalpha;
                 cohesion = axis.flow;
             }
@@ -165,7 +167,8 @@ class ConeReturn {
     template <class Real>
     LODE_INLINE void soften_at_apex(const Real& tension, const Real& alpha, const Real& scale,
                                     const FlowStress<Real>& c, const Real& driving, const ConeStep<Real>& end,
-                                    const Mask<Real>& apex, Real& dalpha, FlowStress<Real>& cohesion) const {
+                                    const Mask<Real>& apex, Real& dalpha, FlowStress<Real>& cohesion,
+                                    const SolveCounter<Real>& solves) const {
         const auto residual = [tension, alpha, scale, law = law_, stiffness = axis_unloading_](const Real& x) {
             const FlowStress<Real> k = ReturnToYield<Law>::at(law, alpha + x, scale);
             return Residual<Real>{tension - stiffness * x - k.value, -stiffness - k.slope};
@@ -178,6 +181,7 @@ class ConeReturn {
         const Real start = select(forward, excess / select(forward, stiffness, Real(1.0)), lower);
         const auto root = solve_bracketed<Slope::decreasing>(residual, lower, upper, start,
                                                              return_tolerance * max(abs(driving), abs(tension)), apex);
+        solves.count(root);
         dalpha = root.x;
         cohesion = ReturnToYield<Law>::at(law_, alpha + root.x, scale);
     }

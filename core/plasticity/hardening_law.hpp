@@ -148,7 +148,8 @@ class ReturnToYield {
     // The lanes of `yields`; `flow` is that of the start. The other lanes hold numbers without meaning.
     template <class Real>
     LODE_INLINE Result<Real> operator()(const Real& q_trial, const Real& alpha, const Real& scale,
-                                        const FlowStress<Real>& flow, const Mask<Real>& yields) const {
+                                        const FlowStress<Real>& flow, const Mask<Real>& yields,
+                                        const SolveCounter<Real>& solves = {}) const {
         const Real excess = q_trial - flow.value;
         if constexpr (is_straight) {
             const Real dalpha = compliance_ * excess;
@@ -160,11 +161,11 @@ class ReturnToYield {
             const Real dalpha = select(on_slope, sloped, flat);
             return {dalpha, at(law_, alpha + dalpha, scale)};
         } else if constexpr (saturates && !is_differentiated<Real>) {
-            return by_decay(q_trial, alpha, flow, excess, yields);
+            return by_decay(q_trial, alpha, flow, excess, yields, solves);
         } else if constexpr (std::is_same_v<Law, PowerHardening>) {
-            return near_infinite_slope(q_trial, alpha, flow, excess, yields);
+            return near_infinite_slope(q_trial, alpha, flow, excess, yields, solves);
         } else {
-            return in_bracket(q_trial, alpha, scale, flow, excess, yields);
+            return in_bracket(q_trial, alpha, scale, flow, excess, yields, solves);
         }
     }
 
@@ -200,14 +201,15 @@ class ReturnToYield {
 
     template <class Real>
     LODE_INLINE Result<Real> in_bracket(const Real& q_trial, const Real& alpha, const Real& scale,
-                                        const FlowStress<Real>& flow, const Real& excess,
-                                        const Mask<Real>& active) const {
+                                        const FlowStress<Real>& flow, const Real& excess, const Mask<Real>& active,
+                                        const SolveCounter<Real>& solves) const {
         const Real upper = inverse_stiffness_ * max(Law::softens ? q_trial : excess, Real(0.0));
         const Real compliance = 1.0 / (stiffness_ + flow.slope);
         Real start = excess * compliance;
         start = start - 0.5 * flow.curvature * (start * start) * compliance;
         const auto root = solve_bracketed<Slope::decreasing>(residual(q_trial, alpha, scale), Real(0.0), upper, start,
                                                              return_tolerance * q_trial, active);
+        solves.count(root);
         return {root.x, root.last.flow};
     }
 
@@ -217,7 +219,8 @@ class ReturnToYield {
     // 1/F' of Newton's step d from there. What that leaves is of the order 7 in L: rounding, for m < 1/4 and L < 1/24.
     template <class Real>
     LODE_INLINE Result<Real> by_decay(const Real& q_trial, const Real& alpha, const FlowStress<Real>& flow,
-                                      const Real& excess, const Mask<Real>& yields) const {
+                                      const Real& excess, const Mask<Real>& yields,
+                                      const SolveCounter<Real>& solves) const {
         const Real bend = flow.slope - law_.modulus;
         const Real share = 1.0 / (1.0 + compliance_ * bend);
         const Real m = compliance_ * bend * share;
@@ -230,28 +233,32 @@ class ReturnToYield {
         const Real bend_end = bend * (((1.0 - z0) + phi) * (1.0 - d));
         const FlowStress<Real> k{q_trial - stiffness_ * x, bend_end + law_.modulus, -law_.rate * bend_end};
         const auto solved = L < Real(1.0 / 24) && m < Real(0.25) && alpha + x < Real(law_.straight_from);
-        if (all(solved || !yields)) [[likely]]
+        if (all(solved || !yields)) [[likely]] {
+            solves.count(1);
             return {x, k};
-        const Result<Real> other = in_bracket_of(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved));
+        }
+        const Result<Real> other = in_bracket_of(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved), solves);
         return either(solved, Result<Real>{x, k}, other);
     }
     // Out of line and everything by value.
     template <class Real>
     [[gnu::noinline]] static Result<Real> in_bracket_of(ReturnToYield self, Real q_trial, Real alpha,
-                                                        FlowStress<Real> flow, Mask<Real> active) {
-        return self.in_bracket(q_trial, alpha, Real(1.0), flow, q_trial - flow.value, active);
+                                                        FlowStress<Real> flow, Mask<Real> active,
+                                                        SolveCounter<Real> solves) {
+        return self.in_bracket(q_trial, alpha, Real(1.0), flow, q_trial - flow.value, active, solves);
     }
 
     // For n < 1 the slope at alpha = 0 is infinite and a step from there long: such lanes are solved for the logarithm
     // of dalpha, from the nearer of the elastic and the plastic limit.
     template <class Real>
     LODE_INLINE Result<Real> near_infinite_slope(const Real& q_trial, const Real& alpha, const FlowStress<Real>& flow,
-                                                 const Real& excess, const Mask<Real>& yields) const {
+                                                 const Real& excess, const Mask<Real>& yields,
+                                                 const SolveCounter<Real>& solves) const {
         const Real upper = inverse_stiffness_ * max(excess, Real(0.0));
         const auto steep = yields && alpha < 0.1 * upper && Mask<Real>(law_.exponent < 1.0 && law_.factor > 0.0);
         const auto others = yields && !steep;
         Result<Real> result{Real(0.0), flow};
-        if (any(others)) result = in_bracket(q_trial, alpha, Real(1.0), flow, excess, others);
+        if (any(others)) result = in_bracket(q_trial, alpha, Real(1.0), flow, excess, others, solves);
         if (!any(steep)) return result;
         const Real rise = select(steep, (q_trial - law_.yield) * (1.0 / law_.factor), Real(1.0));
         const Real plastic_limit = quick_pow(rise, 1.0 / law_.exponent) - alpha;
@@ -260,6 +267,7 @@ class ReturnToYield {
         const Real start = max(min(upper, plastic_limit), lower);
         const auto root = solve_in_logarithm(residual(q_trial, alpha, Real(1.0)), lower, upper, start,
                                              return_tolerance * q_trial, steep);
+        solves.count(root);
         return either(steep, Result<Real>{root.last.dalpha, root.last.flow}, result);
     }
 

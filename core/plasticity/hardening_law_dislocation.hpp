@@ -83,8 +83,9 @@ class DislocationHardening {
 
     template <class Real>
     ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_along(stiffness_[line], at, q_trial, alpha, k, yields);
+                                const FlowStress<Real>& k, const Mask<Real>& yields,
+                                const SolveCounter<Real>& solves) const {
+        return solve_along(stiffness_[line], at, q_trial, alpha, k, yields, solves);
     }
     template <Line line>
     double plastic_share(const At<double>&, double H) const {
@@ -165,7 +166,8 @@ class DislocationHardening {
     // In y = ln(dalpha).
     template <class Real>
     ReturnResult<Real> solve_along(double S, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                   const FlowStress<Real>& k, const Mask<Real>& yields) const {
+                                   const FlowStress<Real>& k, const Mask<Real>& yields,
+                                   const SolveCounter<Real>& solves) const {
         const auto residual = [self = *this, at, S, q_trial, alpha](const Real& y) {
             const Real x = quick_exp(y), drop = S * x;
             const Growth<Real> g = self.growth(at, alpha, x, y);
@@ -181,6 +183,7 @@ class DislocationHardening {
         const Real plastic_limit = quick_log(excess / z) / at.inverse_m - at.log_rate_scale;
         const auto root = solve_bracketed<Slope::decreasing>(
             residual, lower, upper, max(min(upper, plastic_limit), lower), return_tolerance * q_trial, flows);
+        solves.count(root);
         return either(flows, ReturnResult<Real>{root.last.dalpha, root.last.flow}, ReturnResult<Real>{Real(0.0), k});
     }
 

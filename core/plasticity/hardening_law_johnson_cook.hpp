@@ -114,24 +114,28 @@ class JohnsonCook {
 
     template <Line line, class Real>
     LODE_INLINE ReturnResult<Real> solve(At<Real>& at, const Real& q_trial, const Real& alpha,
-                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_along(stiffness_[line], inverse_stiffness_[line], at, q_trial, alpha, k, yields);
+                                         const FlowStress<Real>& k, const Mask<Real>& yields,
+                                         const SolveCounter<Real>& solves = {}) const {
+        return solve_along(stiffness_[line], inverse_stiffness_[line], at, q_trial, alpha, k, yields, solves);
     }
     // The same on a line of any stiffness S.
     template <class Real, class Number>
     LODE_INLINE ReturnResult<Real> solve_along(const Number& S, const Number& inverse_S, At<Real>& at,
                                                const Real& q_trial, const Real& alpha, const FlowStress<Real>& k,
-                                               const Mask<Real>& yields) const {
+                                               const Mask<Real>& yields, const SolveCounter<Real>& solves) const {
         at.solved = true;
         at.end_hardening = inverse_slow_ratio_ * k.value;
         const Real upper = select(yields, (q_trial - k.value) * inverse_S, Real(1.0));
         Solution<Real> end{{upper, k}, at.end_ratio, at.end_ratio_change, at.end_hardening, Mask<Real>(false)};
         if constexpr (!is_differentiated<Real>)
-            if (at.slowest < HUGE_VAL) end = step_from(start_of(S, at, q_trial, k, upper), S, at, q_trial, alpha);
+            if (at.slowest < HUGE_VAL) {
+                end = step_from(start_of(S, at, q_trial, k, upper), S, at, q_trial, alpha);
+                solves.count(1);
+            }
         if (!all(end.found || !yields)) [[unlikely]] {
             const Mask<Real> left = yields && !end.found;
             const Solution<Real> other =
-                solve_slowly(*this, S, at, q_trial, alpha, k, upper, Real(end.result.dalpha), left);
+                solve_slowly(*this, S, at, q_trial, alpha, k, upper, Real(end.result.dalpha), left, solves);
             end = either_end(left, other, end);
         }
         at.end_ratio = select(yields, end.ratio, at.end_ratio);
@@ -311,7 +315,7 @@ class JohnsonCook {
     template <class Real, class Number>
     [[gnu::noinline]] static Solution<Real> solve_slowly(JohnsonCook self, Number S, At<Real> at, Real q_trial,
                                                          Real alpha, FlowStress<Real> k, Real upper, Real x,
-                                                         Mask<Real> active) {
+                                                         Mask<Real> active, SolveCounter<Real> solves) {
         const Mask<Real> found(true);
         Solution<Real> end{
             {upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0), Real(0.0), found};
@@ -319,6 +323,7 @@ class JohnsonCook {
             for (int i = 0; i < 2 && at.slowest < HUGE_VAL; ++i) {
                 x = max(min(x, upper), 0.01 * upper);
                 const Solution<Real> next = self.step_from(x, S, at, q_trial, alpha);
+                solves.count(1);
                 const Mask<Real> here = active && next.found;
                 end = either_end(here, next, end);
                 active = active && !here;
@@ -337,6 +342,7 @@ class JohnsonCook {
             const auto root = solve_bracketed<Slope::decreasing>(self.in_logarithm<true>(at, q_trial, alpha, S),
                                                                  Real(quick_log(at.slowest)), ln(fast, upper),
                                                                  ln(fast, upper), tolerance, fast);
+            solves.count(root);
             end = either_end(fast, root.last.end, end);
         }
         const Mask<Real> slow = solid && !fast;
@@ -352,6 +358,7 @@ class JohnsonCook {
             const auto root =
                 solve_bracketed<Slope::decreasing>(self.in_logarithm<false>(at, q_trial, alpha, S), ln(slow, lower),
                                                    ln(slow, upper), ln(slow, start), tolerance, slow);
+            solves.count(root);
             end = either_end(slow, root.last.end, end);
         }
         return end;

@@ -99,8 +99,10 @@ class Steinberg {
 
     template <class Real>
     ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                const FlowStress<Real>&, const Mask<Real>& yields) const {
-        return solve_along(line == radial ? stiffness<radial>(at) : stiffness<axial>(at), at, q_trial, alpha, yields);
+                                const FlowStress<Real>&, const Mask<Real>& yields,
+                                const SolveCounter<Real>& solves) const {
+        return solve_along(line == radial ? stiffness<radial>(at) : stiffness<axial>(at), at, q_trial, alpha, yields,
+                           solves);
     }
     template <Line line>
     double plastic_share(const At<double>& at, double H) const {
@@ -173,7 +175,8 @@ class Steinberg {
     // With a constant thermal part the return is that of the curve.
     template <class Real>
     LODE_INLINE ReturnResult<Real> solve_with(const At<Real>& at, const Real& S, const Real& q_trial, const Real& alpha,
-                                              const Real& part, const Mask<Real>& active) const {
+                                              const Real& part, const Mask<Real>& active,
+                                              const SolveCounter<Real>& solves) const {
         const auto residual = [self = *this, at, S, q_trial, alpha, part](const Real& x) {
             const FlowStress<Real> k = self.flow_with(at, alpha + x, part, Real(0.0));
             return ReturnTrial<Real>{q_trial - S * x - k.value, -S - k.slope, -k.curvature, x, k};
@@ -184,15 +187,16 @@ class Steinberg {
         start = start - 0.5 * k.curvature * (start * start) * compliance;
         const auto root = solve_bracketed<Slope::decreasing>(residual, Real(0.0), excess / S, start,
                                                              return_tolerance * q_trial, active);
+        solves.count(root);
         return {root.last.dalpha, root.last.flow};
     }
 
     // The unknown of law 5 is YT, of which dalpha = DTIME rate(YT) is explicit.
     template <class Real>
     ReturnResult<Real> solve_along(const Real& S, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                   const Mask<Real>& yields) const {
+                                   const Mask<Real>& yields, const SolveCounter<Real>& solves) const {
         if constexpr (!with_thermal_part) {
-            return solve_with(at, S, q_trial, alpha, Real(0.0), yields);
+            return solve_with(at, S, q_trial, alpha, Real(0.0), yields, solves);
         } else {
             const double dt = at.time.value;
             const auto residual = [self = *this, at, S, q_trial, alpha, dt](const Real& part) {
@@ -217,10 +221,12 @@ class Steinberg {
                 const Real start = max(min(q_trial / safe - curve_.flow_stress(alpha).value, high), low);
                 const auto root =
                     solve_bracketed<Slope::decreasing>(residual, low, high, start, return_tolerance * q_trial, between);
+                solves.count(root);
                 result = root.last.result;
             }
-            if (any(at_low)) result = either(at_low, solve_with(at, S, q_trial, alpha, low, at_low), result);
-            if (any(at_high)) result = either(at_high, solve_with(at, S, q_trial, alpha, high, at_high), result);
+            if (any(at_low)) result = either(at_low, solve_with(at, S, q_trial, alpha, low, at_low, solves), result);
+            if (any(at_high))
+                result = either(at_high, solve_with(at, S, q_trial, alpha, high, at_high, solves), result);
             return result;
         }
     }

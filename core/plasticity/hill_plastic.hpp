@@ -70,11 +70,11 @@ class Kernel {
         const Stress<kind, Real> stress = frame.to_material(point.stress);
         if (c.substeps > 1) [[unlikely]] {
             // Copies, so that the point itself stays in registers on the other way.
-            const Course<kind, Real> done = in_substeps(stress, course, tangent);
+            const Course<kind, Real> done = in_substeps(stress, course, tangent, point.solves);
             course = done;
         } else {
             course.stress = stress;
-            integrate(course, tangent);
+            integrate(course, tangent, point.solves);
         }
         point.stress = frame.to_host(course.stress);
         point.elastic_energy = course.energy;
@@ -165,13 +165,13 @@ class Kernel {
 
     // One backward Euler step, page steps 1 to 4 in material axes.
     template <AnalysisKind kind, class Real, class T>
-    LODE_INLINE void integrate(Course<kind, Real>& course, T& tangent) const {
+    LODE_INLINE void integrate(Course<kind, Real>& course, T& tangent, const SolveCounter<Real>& solves) const {
         constexpr int n = components(kind);
         const HillModes<kind>& m = modes<kind>();
         const Stress<kind, Real> before = course.stress;
         Stress<kind, Real> trial = m.stress(course.strain);
         trial += before;
-        const HillStep<kind, Real> end = hill_return(m, m.to_modes(trial), course.alpha, course.g);
+        const HillStep<kind, Real> end = hill_return(m, m.to_modes(trial), course.alpha, course.g, solves);
         const Stress<kind, Real> after = m.from_modes(end.z);
         for (int i = 0; i < n; ++i) course.stress[i] = select(end.yields, after[i], trial[i]);
         course.energy = m.energy(end.z);
@@ -227,24 +227,25 @@ class Kernel {
 
     // METHOD 2.
     template <AnalysisKind kind, class Real>
-    LODE_INLINE void take_substeps(Course<kind, Real>& course) const {
+    LODE_INLINE void take_substeps(Course<kind, Real>& course, const SolveCounter<Real>& solves) const {
         NoTangent none;
         const Strain<kind, Real> whole = course.strain;
         course.strain = Real(1.0 / c.substeps) * course.strain;
-        for (int k = 0; k < c.substeps; ++k) integrate(course, none);
+        solves.count_substeps(c.substeps);
+        for (int k = 0; k < c.substeps; ++k) integrate(course, none, solves);
         course.strain = whole;
     }
     template <AnalysisKind kind, class Real>
-    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course,
-                                                     NoTangent&) const {
+    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, NoTangent&,
+                                                     SolveCounter<Real> solves) const {
         course.stress = stress;
-        take_substeps(course);
+        take_substeps(course, solves);
         return course;
     }
     // With a tangent: the same substeps on numbers that carry their derivatives.
     template <AnalysisKind kind>
     [[gnu::noinline]] Course<kind, double> in_substeps(Stress<kind, double> stress, Course<kind, double> course,
-                                                       Tangent<kind>& tangent) const {
+                                                       Tangent<kind>& tangent, SolveCounter<double> solves) const {
         constexpr int n = components(kind);
         Course<kind, Sensitive> sensitive;
         for (int i = 0; i < n; ++i) {
@@ -253,7 +254,7 @@ class Kernel {
         }
         sensitive.alpha = course.alpha;
         sensitive.g = {course.g.value, course.g.slope, course.g.curvature};
-        take_substeps(sensitive);
+        take_substeps(sensitive, SolveCounter<Sensitive>(solves));
         const Sensitive heat = c.thermal.plastic_heat(sensitive.heat, sensitive.work);
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) tangent(i, j) = sensitive.stress[i](j);

@@ -160,7 +160,7 @@ inline constexpr lode_model description = {
         "axes, with two styles of isotropic hardening.",
     .source = "Nairn, chapter 2 (eqs. 2.104-2.139)",
     .kinds = kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 15,

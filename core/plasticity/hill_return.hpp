@@ -36,7 +36,8 @@ class HillReturn {
     // y: trial stress in modes; g at the start.
     template <AnalysisKind kind, class Real>
     LODE_INLINE HillStep<kind, Real> operator()(const HillModes<kind>& modes, const Stress<kind, Real>& y,
-                                                const Real& alpha, const FlowStress<Real>& g) const {
+                                                const Real& alpha, const FlowStress<Real>& g,
+                                                const SolveCounter<Real>& solves = {}) const {
         const Real one(1.0), zero(0.0);
         const Problem<kind, Real> problem(modes, y, alpha, law_, inverse_reference_, squared_);
         HillStep<kind, Real> end;
@@ -53,10 +54,11 @@ class HillReturn {
         const Real start = select(end.yields, excess / g.value, zero);
         const Real upper = start * (1.0 / modes.smallest_ratio);
         auto root = solve_bracketed<Slope::increasing>(problem, zero, upper, start, Real(return_tolerance), end.yields);
+        solves.count(root);
         if (squared_) {
             const auto turned = end.yields && root.last.dalpha_slope < zero;
             if (any(turned)) [[unlikely]]
-                find_smallest(problem, root, turned);
+                find_smallest(problem, root, turned, solves);
         }
         // With what the iteration has left, so that the answer does not depend on where it stopped.
         const auto& last = root.last;
@@ -258,7 +260,8 @@ class HillReturn {
     // Under strong anisotropy dalpha of the squared form may turn back as mu grows: then the first change of sign from
     // mu = 0 is sought.
     template <AnalysisKind kind, class Real, class Solution>
-    LODE_INLINE void find_smallest(const Problem<kind, Real>& problem, Solution& root, const Mask<Real>& turned) const {
+    LODE_INLINE void find_smallest(const Problem<kind, Real>& problem, Solution& root, const Mask<Real>& turned,
+                                   const SolveCounter<Real>& solves) const {
         constexpr int intervals = 64;
         Real upper = root.x, lower = Real(0.0);
         Mask<Real> found(false);
@@ -269,9 +272,11 @@ class HillReturn {
             found = found || beyond;
             lower = select(turned && !found, x, lower);
         }
+        solves.count(intervals - 1, intervals - 1);
         if (!any(found)) return;
         const auto first = solve_bracketed<Slope::increasing>(problem, lower, upper, 0.5 * (lower + upper),
                                                               Real(return_tolerance), found);
+        solves.count(first);
         root.x = select(found, first.x, root.x);
         root.last = problem(root.x);
     }

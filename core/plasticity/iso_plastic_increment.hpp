@@ -189,10 +189,10 @@ class IncrementRules {
 
     // The multiplier in the lanes that yield. What is molten keeps no deviator: dalpha = q_trial/S.
     template <Line line, AnalysisKind kind, class Real>
-    LODE_INLINE void solve(Step<kind, Real, Law>& step, const Real& q_trial) const {
+    LODE_INLINE void solve(Step<kind, Real, Law>& step, const Real& q_trial, const SolveCounter<Real>& solves) const {
         Mask<Real> solid = step.yields;
         if constexpr (Law::melts) solid = solid && !step.at.melted;
-        const ReturnResult<Real> r = law.template solve<line>(step.at, q_trial, step.alpha, step.start, solid);
+        const ReturnResult<Real> r = law.template solve<line>(step.at, q_trial, step.alpha, step.start, solid, solves);
         set_return(step, r, solid);
     }
 

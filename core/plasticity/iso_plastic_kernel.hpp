@@ -61,7 +61,7 @@ class Kernel : public PlaneStressReturn<Law> {
         if (!has_rate(point, step)) return false;
         if (any(step.yields)) {
             inverse_q = 1.0 / select(step.yields, max(q_trial, Real(1e-300)), Real(1.0));
-            this->template solve<radial>(step, q_trial);
+            this->template solve<radial>(step, q_trial, point.solves);
             if constexpr (Law::melts)
                 if (any(step.at.melted)) [[unlikely]]
                     set_molten(step, q_trial / (3.0 * G), double_contraction(s_start, s_start) / (4.0 * G));
@@ -115,7 +115,7 @@ class Kernel : public PlaneStressReturn<Law> {
         step.yields = yielding(step, q_trial);
         if (!has_rate(point, step)) return false;
         if (any(step.yields)) {
-            this->template solve<axial>(step, q_trial);
+            this->template solve<axial>(step, q_trial, point.solves);
             if constexpr (Law::melts)
                 if (any(step.at.melted)) [[unlikely]]
                     set_molten(step, q_trial / E, start * start / (2.0 * E));

@@ -40,15 +40,17 @@ class CurveLaw {
     }
     template <Line line, class Real>
     LODE_INLINE ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        if constexpr (line == radial) return radial_(q_trial, alpha, at.scale, k, yields);
-        else return axial_(q_trial, alpha, at.scale, k, yields);
+                                         const FlowStress<Real>& k, const Mask<Real>& yields,
+                                         const SolveCounter<Real>& solves = {}) const {
+        if constexpr (line == radial) return radial_(q_trial, alpha, at.scale, k, yields, solves);
+        else return axial_(q_trial, alpha, at.scale, k, yields, solves);
     }
     // On a line chosen at run time.
     template <class Real>
     LODE_INLINE ReturnResult<Real> solve_on(Line line, const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                            const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return (line == radial ? radial_ : axial_)(q_trial, alpha, at.scale, k, yields);
+                                            const FlowStress<Real>& k, const Mask<Real>& yields,
+                                            const SolveCounter<Real>& solves) const {
+        return (line == radial ? radial_ : axial_)(q_trial, alpha, at.scale, k, yields, solves);
     }
     template <Line line>
     LODE_INLINE double plastic_share(const At<double>&, double H) const {
@@ -101,8 +103,9 @@ class Apart {
     }
     template <Line line, class Real>
     LODE_INLINE ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha,
-                                         const FlowStress<Real>& k, const Mask<Real>& yields) const {
-        return solve_apart<Real>(line, at, q_trial, alpha, k, yields);
+                                         const FlowStress<Real>& k, const Mask<Real>& yields,
+                                         const SolveCounter<Real>& solves = {}) const {
+        return solve_apart<Real>(line, at, q_trial, alpha, k, yields, solves);
     }
     template <Line line>
     LODE_INLINE double plastic_share(const At<double>& at, double H) const {
@@ -133,8 +136,9 @@ class Apart {
   private:
     template <class Real>
     [[gnu::noinline]] ReturnResult<Real> solve_apart(Line line, At<Real> at, Real q_trial, Real alpha,
-                                                     FlowStress<Real> k, Mask<Real> yields) const {
-        return law_.solve_on(line, at, q_trial, alpha, k, yields);
+                                                     FlowStress<Real> k, Mask<Real> yields,
+                                                     SolveCounter<Real> solves) const {
+        return law_.solve_on(line, at, q_trial, alpha, k, yields, solves);
     }
 
     Law law_;
@@ -204,10 +208,10 @@ class AnyLaw {
     }
     template <Line line, class Real>
     ReturnResult<Real> solve(const At<Real>& at, const Real& q_trial, const Real& alpha, const FlowStress<Real>& k,
-                             const Mask<Real>& yields) const {
+                             const Mask<Real>& yields, const SolveCounter<Real>& solves = {}) const {
         return visit<ReturnResult<Real>>([&](const auto& law) {
             auto one = law.at(at.surroundings);
-            return law.template solve<line>(one, q_trial, alpha, k, yields);
+            return law.template solve<line>(one, q_trial, alpha, k, yields, solves);
         });
     }
     template <class Real>

@@ -59,6 +59,7 @@ class SteppedKernel {
         constexpr int n = plastic_components<kind>;
         NoTangent none;
         const double part = 1.0 / substeps_;
+        point.solves.count_substeps(substeps_);
         const Stress<kind, Real> stress = point.stress;
         for (int i = 0; i < components(kind); ++i) step.strain[i] = part * step.strain[i];
         step.surroundings.time = increment.time_increment.value * part;
@@ -103,7 +104,7 @@ class SteppedKernel {
         DeviatoricState<Real> end;
         if constexpr (is_batch<Real>) end = follow_lanes(start, step.alpha, d, step.surroundings.scale);
         else
-            end = ConstantRatePath<Real>(kernel_.law, step.surroundings.scale, G)
+            end = ConstantRatePath<Real>(kernel_.law, step.surroundings.scale, G, point.solves)
                       .follow(method_, {start, step.alpha}, d, substeps_, tolerance_);
         step.start = kernel_.law.start(step.at, step.alpha);
         step.dalpha = end.alpha - step.alpha;
@@ -175,6 +176,7 @@ class SteppedKernel {
         const int count = std::min(most, point.state.count());
         for (int i = 0; i < count; ++i) state[i] = Sensitive(point.state[i + 1]);
         moving.state = State<Sensitive>(state, state, 1, count);
+        moving.solves = point.solves;
 
         const Sensitive heat = integrate(increment, moving);
         if (moving.failure != nullptr) {

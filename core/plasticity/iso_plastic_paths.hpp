@@ -39,6 +39,7 @@ class Turning {
         }
     };
     State at;
+    int panels = 0;  // integrated, or tried
 
     Turning(const AnyLaw& law, const Surroundings<double>& s, double G, double alpha, bool is_radial)
         : law_(law),
@@ -54,7 +55,7 @@ class Turning {
         constexpr int columns = 8;
         at = {G3_ * alpha_ + start_.value, u0, 0.0, 1.0};
         double left = length, H = std::min(length, 0.5);
-        for (int panel = 0; panel < 10000; ++panel) {
+        for (panels = 1; panels <= 10000; ++panels) {
             H = std::min(H, left);
             State table[columns];
             double change = HUGE_VAL;
@@ -133,7 +134,8 @@ class ConstantRatePath {
     using S = Deviator<Real>;
     using State = DeviatoricState<Real>;
 
-    ConstantRatePath(const AnyLaw& law, const Real& scale, double G) : law_(law), G_(G) {
+    ConstantRatePath(const AnyLaw& law, const Real& scale, double G, const SolveCounter<Real>& solves = {})
+        : law_(law), G_(G), solves_(solves) {
         Surroundings<Real> s;
         s.scale = scale;
         at_ = law.at(s);
@@ -178,6 +180,7 @@ class ConstantRatePath {
 
     AnyLaw law_;
     double G_;
+    SolveCounter<Real> solves_;
     AnyLaw::At<Real> at_;
 
     static Real norm(const S& s) { return sqrt(double_contraction(s, s)); }
@@ -185,7 +188,7 @@ class ConstantRatePath {
     State backward_euler(const State& trial) const {
         const Real q = sqrt(1.5) * norm(trial.s);
         const FlowStress<Real> k = law_.start(at_, trial.alpha);
-        const Real dalpha = law_.template solve<radial>(at_, q, trial.alpha, k, true).dalpha;
+        const Real dalpha = law_.template solve<radial>(at_, q, trial.alpha, k, true, solves_).dalpha;
         return {(1.0 - 3.0 * G_ * dalpha / q) * trial.s, trial.alpha + dalpha};
     }
 
@@ -202,11 +205,13 @@ class ConstantRatePath {
             at.alpha = at.alpha + dalpha;
             k = law_.start(at_, at.alpha);
             if (last) {
+                solves_.count(i);
                 at.s = (q / q_trial) * at.s;
                 return at;
             }
             last = abs(q - k.value) <= return_tolerance * q_trial;
         }
+        solves_.count(100, 1);
         return backward_euler({at.s, at.alpha - (q_trial - q) / (3.0 * G_)});
     }
 
@@ -232,7 +237,10 @@ class ConstantRatePath {
         if (!is_radial) u0 = quick_log(along > Real(0.0) ? across / (R + along) : (R - along) / across);
         const Real length = a / R;
         Turning turning(law_, value_of_surroundings(), G_, value_of(c.alpha), is_radial);
-        if (!turning.integrate(value_of(u0), value_of(length))) return backward_euler({c.s + d, c.alpha});
+        const bool turned_to_end = turning.integrate(value_of(u0), value_of(length));
+        solves_.count(0, turned_to_end ? 0 : 1);
+        solves_.count_substeps(turning.panels);
+        if (!turned_to_end) return backward_euler({c.s + d, c.alpha});
         // Value and derivatives.
         const Real late = length - Real(value_of(length)), turned = u0 - Real(value_of(u0));
         const Real V = turning.at.V + turning.speed().V * late + turning.at.V_u0 * turned;
@@ -279,11 +287,14 @@ class ConstantRatePath {
         const auto accept = [this](Flow& at) { pull_back(at); };
         const SubstepControl control{.tolerance = tolerance, .first = 1.0, .smallest = 1e-9, .max_substeps = 100000};
         const auto end = modified_euler(Flow{c.s, c.alpha}, rate, error, accept, control);
+        solves_.count_substeps(end.accepted + end.rejected);
+        solves_.count(0, end.completed ? 0 : 1);
         if (!end.completed) return backward_euler({c.s + d, c.alpha});
         return {end.state.s, end.state.alpha};
     }
     State forward(const State& c, const S& d, int substeps) const {
         Flow at{c.s, c.alpha};
+        solves_.count_substeps(substeps);
         for (int i = 0; i < substeps; ++i) {
             at = at + Real(1.0 / substeps) * rate_of(at, d);
             pull_back(at);

@@ -64,7 +64,7 @@ class PlaneStressReturn : public IncrementRules<Law> {
         step.yields = yielding(step, q_trial);
         if (!has_rate(point, step)) return false;
         if (any(step.yields)) {
-            t = solve_in_plane_stress(step, e, sum, shear_part, q_trial);
+            t = solve_in_plane_stress(step, e, sum, shear_part, q_trial, point.solves);
             if constexpr (Law::melts)
                 if (any(step.at.melted)) [[unlikely]] {
                     set_molten(step, q_trial / (3.0 * e.shear), stored_energy(e, start));
@@ -114,7 +114,8 @@ class PlaneStressReturn : public IncrementRules<Law> {
 
     template <AnalysisKind kind, class Real, class E>
     LODE_INLINE Real solve_in_plane_stress(Step<kind, Real, Law>& step, const E& e, const Real& sum,
-                                           const Real& shear_part, const Real& q_trial) const {
+                                           const Real& shear_part, const Real& q_trial,
+                                           const SolveCounter<Real>& solves) const {
         Mask<Real> solid = step.yields;
         if constexpr (Law::melts) solid = solid && !step.at.melted;
         const auto rho = e.rho;
@@ -155,12 +156,14 @@ class PlaneStressReturn : public IncrementRules<Law> {
             const Mask<Real> flows = solid && in_logarithm(lowest).value > Real(0.0);
             const auto root =
                 solve_bracketed<Slope::decreasing>(in_logarithm, lowest, Real(0.0), first, tolerance, flows);
+            solves.count(root);
             set_return(step, {root.last.dalpha, root.last.flow}, flows);
             step.yields = step.yields && (flows || !solid);
             return select(flows, 1.0 - quick_exp(root.x), Real(1.0));
         } else {
             const auto of_t = [residual](const Real& x) { return residual(1.0 - x); };
             const auto root = solve_bracketed<Slope::increasing>(of_t, Real(0.0), Real(1.0), start, tolerance, solid);
+            solves.count(root);
             set_return(step, {root.last.dalpha, root.last.flow}, solid);
             return select(solid, root.x, Real(1.0));
         }

@@ -78,7 +78,7 @@ struct CamClay {
 
         if (substeps.is_single_step()) {
             CamClayPath<kind, Real>& path = start;
-            substeps.advance(path, dv, de);
+            substeps.advance(path, dv, de, point.solves);
             if (!accept(increment, path, clipped, point)) return;
             if constexpr (wants_tangent<T>) {
                 substeps.set_tangent(path.last, plasticity.linearised(path.last), path.e, tangent);
@@ -86,7 +86,7 @@ struct CamClay {
             }
         } else {
             CamClaySensitivity<kind, wants_tangent<T>> sensitivity;
-            const CamClayPath<kind, Real> end = substeps.several_steps(start, dv, de, sensitivity);
+            const CamClayPath<kind, Real> end = substeps.several_steps(start, dv, de, sensitivity, point.solves);
             if (!accept(increment, end, clipped, point)) return;
             if constexpr (wants_tangent<T>) {
                 substeps.set_tangent(end.last, sensitivity, end.e, tangent);

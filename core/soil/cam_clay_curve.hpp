@@ -60,10 +60,10 @@ struct CamClayCurve {
     // where A and r are those of the start; lanes in which it finds no admissible root get the bracketed solution.
     template <class Real>
     CurvePoint<Real> solve(const Real& v_max, const Real& over, const Real& s_trial, const Real& A_top,
-                           const Real& r_top, const Mask<Real>& active) const {
+                           const Real& r_top, const Mask<Real>& active, SolveCounter<Real> solves) const {
         if constexpr (is_differentiated<Real>) {
             const double zeta = solve<double>(value_of(v_max), value_of(over), value_of(s_trial), value_of(A_top),
-                                              value_of(r_top), active)
+                                              value_of(r_top), active, SolveCounter<double>(solves))
                                     .zeta;
             const CurvePoint<Real> at = curve_point(Real(zeta), v_max, over, s_trial);
             const Real implicit = Real(zeta) - (at.residual - value_of(at.residual)) / value_of(at.slope);
@@ -86,7 +86,8 @@ struct CamClayCurve {
             Mask<Real> found = !active, lost = Mask<Real>(false);
             Real before = Real(std::numeric_limits<double>::infinity()), last_change = before;
             Real curvature = -2.0 * (s_trial - at.s) * at.h_rate, s_curvature(0.0);
-            for (int iteration = 1; iteration <= most_newton_steps; ++iteration) {
+            int iteration = 1;
+            for (; iteration <= most_newton_steps; ++iteration) {
                 const Real R = abs(at.residual), square_slope = at.slope * at.slope;
                 const Mask<Real> sound = at.slope > Real(0.0) && R <= 0.5 * before;
                 lost = lost || !sound;
@@ -115,9 +116,10 @@ struct CamClayCurve {
                 curvature = bend(at.residual - last.residual, at.slope, last.slope);
                 s_curvature = bend(at.s - last.s, at.s_slope, last.s_slope);
             }
+            solves.count(iteration);
             const Mask<Real> wrong = active && !(found && root.s <= (1.0 + 1e-13) * s_trial);
             if (any(wrong)) [[unlikely]] {
-                const Real zeta = bracketed_lanes(v_max, over, s_trial, root.zeta, wrong);
+                const Real zeta = bracketed_lanes(v_max, over, s_trial, root.zeta, wrong, solves);
                 root.assign(wrong, curve_point(zeta, v_max, over, s_trial));
             }
             return root;
@@ -180,23 +182,29 @@ struct CamClayCurve {
     }
     template <class Real>
     [[gnu::noinline]] Real bracketed_lanes(const Real& v_max, const Real& over, const Real& s_trial, const Real& zeta,
-                                           const Mask<Real>& wrong) const {
+                                           const Mask<Real>& wrong, SolveCounter<Real> solves) const {
+        int evaluations = 0;
         const Lanes<Real> v = to_lanes(v_max), o = to_lanes(over), s = to_lanes(s_trial);
         Lanes<Real> z = to_lanes(zeta);
         for (std::size_t lane = 0; lane < z.size(); ++lane)
-            if (is_set<Real>(wrong, lane)) z[lane] = bracketed(v[lane], o[lane], s[lane]);
+            if (is_set<Real>(wrong, lane)) z[lane] = bracketed(v[lane], o[lane], s[lane], evaluations);
+        solves.count(evaluations, evaluations);
         return from_lanes<Real>(z);
     }
 
     // Steps 6 and 7 with a bracket that is known to hold a root, and its repair (alpha > 0 only).
-    double bracketed(double v_max, double over, double s_trial) const {
-        const auto at = [&](double delta) { return curve_point(sqrt(delta), v_max, over, s_trial); };
+    double bracketed(double v_max, double over, double s_trial, int& evaluations) const {
+        const auto at = [&](double delta) {
+            ++evaluations;
+            return curve_point(sqrt(delta), v_max, over, s_trial);
+        };
         const auto admissible = [&](double delta) {
             const CurvePoint<double> x = at(delta);
             return x.h > 0.0 && x.s < s_trial;
         };
         const auto root = [&](double lower, double upper) {
             const auto residual = [&](double zeta) {
+                ++evaluations;
                 const CurvePoint<double> x = curve_point(zeta, v_max, over, s_trial);
                 return Residual<double>{x.residual, x.slope};
             };

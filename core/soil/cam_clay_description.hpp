@@ -78,7 +78,7 @@ inline constexpr lode_model description = {
         "associated flow.",
     .source = "Banerjee, Cam-Clay model based on Borja et al. 1997, sections 2.1-3.4 (with corrected signs)",
     .kinds = served_kinds,
-    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_HISTORY_STRESS,
+    .traits = LODE_UNSYMMETRIC | LODE_ROTATES_STATE | LODE_HISTORY_STRESS | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 7,

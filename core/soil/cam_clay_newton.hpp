@@ -19,7 +19,8 @@ struct CamClayNewtonResult {
 // from (v, s, 0) in the `active` lanes. `pc` is that of the start of the step.
 template <class Real>
 [[gnu::noinline]] CamClayNewtonResult<Real> solve_by_full_newton(const CamClayCurve& curve, Real v_trial, Real s_trial,
-                                                                 Real pc, Real v, Real s, Mask<Real> active) {
+                                                                 Real pc, Real v, Real s, Mask<Real> active,
+                                                                 SolveCounter<Real> solves) {
     constexpr int most_iterations = 50;
     constexpr double tolerance = 1e-13;
     const CamClayElasticity& elastic = curve.elasticity;
@@ -27,7 +28,8 @@ template <class Real>
     const Real per_pc2 = 1.0 / (pc * pc);
     Real dgamma(0.0);
     Mask<Real> converged(false), lost = !active;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    int iteration = 0;
+    for (; iteration < most_iterations; ++iteration) {
         const Mask<Real> last = converged || lost;
         const Real A = elastic.volumetric_pressure(v), mu = elastic.shear_modulus(A), p = elastic.pressure(A, s);
         const Real q = 3.0 * mu * s, pc_end = pc * exp((v_trial - v) * per_theta), h = 2.0 * p - pc_end;
@@ -58,6 +60,7 @@ template <class Real>
         converged = converged || (go_on && change <= tolerance * scale && abs(r3) <= Real(1e-10));
         if (!is_differentiated<Real> && all(converged || lost)) break;
     }
+    solves.count(std::min(iteration + 1, most_iterations));
     return {v, s, converged && dgamma >= Real(0.0) && s >= Real(0.0)};
 }
 

@@ -43,7 +43,8 @@ struct CamClayReturn : CamClayCurve {
     // Newton from the old state asks for them).
     template <class Real>
     LODE_INLINE CamClayStep<Real> step(const Real& v_trial, const Real& s_trial, const Real& pc, const Real& log_pc,
-                                       const Real& v_start = Real(0.0), const Real& s_start = Real(0.0)) const {
+                                       const Real& v_start = Real(0.0), const Real& s_start = Real(0.0),
+                                       const SolveCounter<Real>& solves = {}) const {
         const Real zero(0.0);
         const Real over = overshoot(v_trial, log_pc);
         const Real v_max = (v_trial * inverse_theta + log_pc) * inverse_w;
@@ -76,8 +77,9 @@ struct CamClayReturn : CamClayCurve {
         Real delta = zero, s = zero, A = A_top, r = zero;
         if (any(sheared) && method != cam_clay::SCALAR_EQUATION) [[unlikely]] {
             const bool from_trial = method == cam_clay::NEWTON_FROM_TRIAL;
-            const CamClayNewtonResult<Real> root = solve_by_full_newton<Real>(
-                *this, v_trial, s_trial, pc, from_trial ? v_trial : v_start, from_trial ? s_trial : s_start, sheared);
+            const CamClayNewtonResult<Real> root =
+                solve_by_full_newton<Real>(*this, v_trial, s_trial, pc, from_trial ? v_trial : v_start,
+                                           from_trial ? s_trial : s_start, sheared, solves);
             end.failed = sheared && !root.found;
             const Mask<Real> found = sheared && root.found;
             delta = select(found, v_max - root.v, zero);
@@ -87,7 +89,7 @@ struct CamClayReturn : CamClayCurve {
         } else if (any(sheared)) {
             const Real r_top = select(over < zero, pc / A_top - 1.0, zero);
             const CurvePoint<Real> at =
-                solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared);
+                solve(v_max, over, select(isotropic, Real(1.0), s_trial), A_top, r_top, sheared, solves);
             delta = select(sheared, at.zeta * at.zeta, zero);
             s = select(sheared, at.s, zero);
             A = select(sheared, at.A, A);

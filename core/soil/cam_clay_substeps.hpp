@@ -44,12 +44,13 @@ struct CamClaySubsteps {
     bool is_single_step() const { return count == 1 && tolerance == 0.0; }
     // One backward Euler step over the strain (dv, de).
     template <AnalysisKind kind, class Real>
-    LODE_INLINE void advance(CamClayPath<kind, Real>& path, const Real& dv, const Stress<kind, Real>& de) const {
+    LODE_INLINE void advance(CamClayPath<kind, Real>& path, const Real& dv, const Stress<kind, Real>& de,
+                             const SolveCounter<Real>& solves) const {
         Real s_start(0.0);
         if (plasticity.method == cam_clay::NEWTON_FROM_START) s_start = shear_invariant(path.e);
         path.e += de;
         const CamClayStep<Real> step =
-            plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc, path.v, s_start);
+            plasticity.step<Real>(path.v + dv, shear_invariant(path.e), path.pc, path.log_pc, path.v, s_start, solves);
         path.last = step;
         path.failed = path.failed || step.failed;
         path.v = step.v;
@@ -70,10 +71,10 @@ struct CamClaySubsteps {
 
     template <AnalysisKind kind, class Real, bool wanted>
     CamClayPath<kind, Real> several_steps(const CamClayPath<kind, Real>& start, const Real& dv,
-                                          const Stress<kind, Real>& de,
-                                          CamClaySensitivity<kind, wanted>& sensitivity) const {
-        if (tolerance > 0.0) return to_tolerance(start, dv, de, sensitivity);
-        return in_steps(count, start, dv, de, sensitivity);
+                                          const Stress<kind, Real>& de, CamClaySensitivity<kind, wanted>& sensitivity,
+                                          SolveCounter<Real> solves) const {
+        if (tolerance > 0.0) return to_tolerance(start, dv, de, sensitivity, solves);
+        return in_steps(count, start, dv, de, sensitivity, solves);
     }
 
     // C of a single step, from the derivatives T of (p, q) by (v_tr, s_tr); m = sqrt(2/3) n.
@@ -115,15 +116,16 @@ struct CamClaySubsteps {
   private:
     template <AnalysisKind kind, class Real, bool wanted>
     CamClayPath<kind, Real> in_steps(int steps, const CamClayPath<kind, Real>& start, const Real& dv,
-                                     const Stress<kind, Real>& de,
-                                     CamClaySensitivity<kind, wanted>& sensitivity) const {
+                                     const Stress<kind, Real>& de, CamClaySensitivity<kind, wanted>& sensitivity,
+                                     SolveCounter<Real> solves) const {
         CamClayPath<kind, Real> path = start;
+        solves.count_substeps(steps);
         const double part = 1.0 / steps;
         const Real dv_part = part * dv;
         const Stress<kind, Real> de_part = part * de;
         for (int k = 0; k < steps; ++k) {
             const Stress<kind, Real> trial = path.e + de_part;
-            advance(path, dv_part, de_part);
+            advance(path, dv_part, de_part, solves);
             if constexpr (wanted) carry(sensitivity, path.last, trial, part, k == 0);
         }
         return path;
@@ -132,13 +134,13 @@ struct CamClaySubsteps {
     // Doubles the steps until the stress settles, lane by lane; the answer is the finer one.
     template <AnalysisKind kind, class Real, bool wanted>
     CamClayPath<kind, Real> to_tolerance(const CamClayPath<kind, Real>& start, const Real& dv,
-                                         const Stress<kind, Real>& de,
-                                         CamClaySensitivity<kind, wanted>& sensitivity) const {
+                                         const Stress<kind, Real>& de, CamClaySensitivity<kind, wanted>& sensitivity,
+                                         SolveCounter<Real> solves) const {
         CamClaySensitivity<kind, false> none;
-        CamClayPath<kind, Real> coarse = in_steps(count, start, dv, de, none), accepted;
+        CamClayPath<kind, Real> coarse = in_steps(count, start, dv, de, none, solves), accepted;
         Mask<Real> settled = Mask<Real>(false);
         for (int steps = 2 * count;; steps *= 2) {
-            const CamClayPath<kind, Real> fine = in_steps(steps, start, dv, de, sensitivity);
+            const CamClayPath<kind, Real> fine = in_steps(steps, start, dv, de, sensitivity, solves);
             accepted = any(settled) ? merge(settled, accepted, fine) : fine;
             settled = settled || stress_change(coarse, fine) <= tolerance * fine.pc;
             if (all(settled) || 2 * steps > most_steps) return accepted;

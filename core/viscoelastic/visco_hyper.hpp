@@ -140,7 +140,7 @@ class Update {
                     MooneyRivlin::ThicknessEquation<Real, X>(g_star * c.G1, g_star * c.G2, c.dilatation, k), in_plane,
                     history[2]};
                 const Real scale = equation.elastic.scale() + (1.0 / (c.G1 + c.G2)) * (abs(in_plane) + abs(history[2]));
-                const auto root = solve_thickness(equation, thickness_of_state(f33m1_old, e), scale);
+                const auto root = solve_thickness(equation, thickness_of_state(f33m1_old, e), scale, point.solves);
                 if (!all(root.converged))
                     return point.fail(!root.converged, "no thickness stretch makes the stress 33 vanish");
                 set_thickness(k, 1.0 + root.d, root.d);

@@ -84,7 +84,7 @@ inline constexpr lode_model description = {
         "components 11, 22, 33, 12, 13, 23 in the reference frame: 10 + 6 NG in all.",
     .source = "Nairn, chapter 10, sections 10.1.10 and 10.1.11",
     .kinds = served,
-    .traits = LODE_FINITE_STRAIN | LODE_HISTORY_STRESS | LODE_ENERGY_ESTIMATE,
+    .traits = LODE_FINITE_STRAIN | LODE_HISTORY_STRESS | LODE_ENERGY_ESTIMATE | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 4,

@@ -183,7 +183,8 @@ class Update {
         }
         if constexpr (has_lateral) {
             Mask<Real> solved(true);
-            const Real lateral = lateral_strain<kind>(old, step, d, e0[2], V0, free_strain, volume, eps, solved);
+            const Real lateral =
+                lateral_strain<kind>(old, step, d, e0[2], V0, free_strain, volume, eps, solved, point.solves);
             if (!all(solved)) [[unlikely]]
                 return point.fail(!solved, "no lateral strain makes the lateral stress vanish");
             d[2] = lateral;
@@ -346,7 +347,8 @@ class Update {
     template <AnalysisKind kind, class Real, class X>
     LODE_INLINE Real lateral_strain(const State<Real>& old, const SeriesStep<X>& step, const Tensor<kind, Real>& d,
                                     const Real& e0, const Real& V0, const Real& free_strain, const Volume<Real>& volume,
-                                    const Tensor<kind, Real>& eps, Mask<Real>& solved) const {
+                                    const Tensor<kind, Real>& eps, Mask<Real>& solved,
+                                    const SolveCounter<Real>& solves) const {
         constexpr double lateral_components = kind == AnalysisKind::uniaxial ? 2.0 : 1.0;
         const bool trapezoidal = !is_plain && c.recursion == Recursion::trapezoidal;
         const X G = c.G0 + step.shear.driven;
@@ -373,7 +375,7 @@ class Update {
                                            volume.j0,  volume.res1, lateral_components};
         Real scale = abs(free_strain) + abs(eps[2]);
         for (int i = 0; i < normal_components(kind); ++i) scale = scale + (abs(d[i]) + abs(eps[i]));
-        const auto root = solve_thickness(equation, Real(0.0), scale);
+        const auto root = solve_thickness(equation, Real(0.0), scale, solves);
         solved = root.converged;
         return root.y;
     }

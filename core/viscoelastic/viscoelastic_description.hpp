@@ -107,7 +107,7 @@ inline constexpr lode_model description = {
         "engineering shears 12, 13, 23) and the elastic volumetric strain of each bulk element: 11 + 6 NG + NK in all.",
     .source = "Nairn, chapter 10 (eqs. 10.1-10.30)",
     .kinds = continuum_kinds,
-    .traits = LODE_ROTATES_STATE,
+    .traits = LODE_ROTATES_STATE | LODE_ITERATES,
     .parameters = parameters,
     .parameter_count = count_of(parameters),
     .required_count = 4,

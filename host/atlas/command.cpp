@@ -86,8 +86,15 @@ Sheets error_maps(const Subject& s, bool quiet) {
             // Elastic after the limit as well: nothing to see.
             const bool is_exact = std::isinf(algorithm.order);
             const ErrorMap map = error_map(own, s.library, *axes, is_exact ? std::nullopt : exact, &meter);
-            const std::string suffix = s.model.algorithm_count > 1 ? fmt::format("error_{}", i + 1) : "error";
-            sheets.push_back(error_sheet(map, s.stem(suffix), s.title(algorithm.name)));
+            const std::string number = s.model.algorithm_count > 1 ? fmt::format("_{}", i + 1) : "";
+            sheets.push_back(error_sheet(map, s.stem("error" + number), s.title(algorithm.name)));
+            if (map.most.iterations > 0)
+                sheets.push_back(solution_sheet(map, &lode_observation::iterations,
+                                                "iterations (evaluations of the residual)",
+                                                s.stem("iterations" + number), s.title(algorithm.name)));
+            if (map.most.safeguards > 0)
+                sheets.push_back(solution_sheet(map, &lode_observation::safeguards, "steps of a safeguard",
+                                                s.stem("safeguards" + number), s.title(algorithm.name)));
         } catch (const Refused&) {
             // the algorithm does not go with these constants
         }

@@ -44,6 +44,36 @@ std::optional<Target> target(MaterialPoint& point, const PointState& start, cons
     return Target{best, stress_norm(point.layout(), best - twice)};
 }
 
+Table table_of(const ErrorMap& map) {
+    const bool observed = !map.cells.empty() && map.cells.front().observation.has_value();
+    std::vector<std::string> columns{"x", "y", "error", "reference_error", "pnewdt", "ns"};
+    if (observed) columns.insert(columns.end(), {"iterations", "safeguards", "substeps"});
+    Table table(columns);
+    for (const ErrorMapCell& c : map.cells) {
+        std::vector<Cell> row{c.x, c.y, c.error, c.reference_error, c.pnewdt, c.nanoseconds};
+        if (c.observation)
+            row.insert(row.end(), {c.observation->iterations, c.observation->safeguards, c.observation->substeps});
+        table.add(row);
+    }
+    return table;
+}
+
+// x, y and value as gnuplot wants a grid: a blank line between rows.
+template <class Value>
+std::string grid_of(const ErrorMap& map, const Value& value) {
+    std::string grid = "$grid << EOD\n";
+    double row = map.cells.empty() ? 0 : map.cells.front().y;
+    for (const ErrorMapCell& c : map.cells) {
+        if (c.y != row) grid += "\n";
+        row = c.y;
+        grid += fmt::format("{} {} {}\n", c.x, c.y, value(c));
+    }
+    return grid + "EOD\n";
+}
+
+constexpr const char* x_label = "increment along the stress (elastic limit strains)";
+constexpr const char* y_label = "increment across it (elastic limit strains)";
+
 }  // namespace
 
 std::optional<ErrorMapAxes> usual_axes(const Scenario& scenario, const Library& library, double strain_scale) {
@@ -77,6 +107,7 @@ ErrorMap error_map(const Scenario& scenario, const Library& library, const Error
                    const std::optional<Scenario>& exact, Meter* meter) {
     MaterialPoint point(scenario, library);
     MaterialPoint reference(exact.value_or(scenario), library);
+    point.observe();
     const Components before = point.state().stress;
     ErrorMap map;
     if (!point.advance(axes.start) || !reference.advance(axes.start)) return map;
@@ -95,6 +126,11 @@ ErrorMap error_map(const Scenario& scenario, const Library& library, const Error
             point.set_state(start);
             const Response response = point.respond(dstrain);
             cell.pnewdt = response.pnewdt;
+            cell.observation = response.observation;
+            if (cell.observation)
+                for (const auto what :
+                     {&lode_observation::iterations, &lode_observation::safeguards, &lode_observation::substeps})
+                    map.most.*what = std::max(map.most.*what, *cell.observation.*what);
             cell.nanoseconds = point.nanoseconds(dstrain, timed_calls);
             const bool answered = !response.cut_wanted() && response.finite();
             if (!answered) ++map.cut_backs;
@@ -120,15 +156,9 @@ ErrorMap error_map(const Scenario& scenario, const Library& library, const Error
 }
 
 Sheet error_sheet(const ErrorMap& map, const std::string& stem, const std::string& title) {
-    Sheet sheet{stem, "", Table({"x", "y", "error", "reference_error", "pnewdt", "ns"}), "", ""};
-    std::string grid = "$grid << EOD\n";
-    double row = map.cells.empty() ? 0 : map.cells.front().y, worst_estimate = 0;
-    double slowest = 0, fastest = HUGE_VAL;
+    Sheet sheet{stem, "", table_of(map), "", ""};
+    double worst_estimate = 0, slowest = 0, fastest = HUGE_VAL;
     for (const ErrorMapCell& c : map.cells) {
-        sheet.table.add({c.x, c.y, c.error, c.reference_error, c.pnewdt, c.nanoseconds});
-        if (c.y != row) grid += "\n";
-        row = c.y;
-        grid += fmt::format("{} {} {}\n", c.x, c.y, 100 * c.error);
         worst_estimate = std::max(worst_estimate, c.reference_error);
         slowest = std::max(slowest, c.nanoseconds);
         fastest = std::min(fastest, c.nanoseconds);
@@ -138,10 +168,11 @@ Sheet error_sheet(const ErrorMap& map, const std::string& stem, const std::strin
         "in "
         "{} of {} cells; {:.0f}..{:.0f} ns a call\n",
         title, 100 * map.largest, 100 * map.mean, worst_estimate, map.cut_backs, map.cells.size(), fastest, slowest);
-    sheet.setup = figure_setup(title, "increment along the stress (elastic limit strains)",
-                               "increment across it (elastic limit strains)") +
-                  grid + R"(EOD
-set table $contours
+    if (map.most.iterations > 0 || map.most.substeps > 0)
+        sheet.text += fmt::format("  at most {} iterations, {} of them steps of a safeguard, {} substeps\n",
+                                  map.most.iterations, map.most.safeguards, map.most.substeps);
+    sheet.setup = figure_setup(title, x_label, y_label) +
+                  grid_of(map, [](const ErrorMapCell& c) { return 100 * c.error; }) + R"(set table $contours
 set contour base
 unset surface
 set cntrparam levels auto 12
@@ -158,6 +189,26 @@ set autoscale fix
     sheet.plot =
         "plot $grid using 1:2:3 with image pixels, $contours using 1:2 with lines lw 1 lc rgb '#303030', "
         "$contours using 1:2:(sprintf('%.3g', $3)) every 14::6 with labels font ',8' textcolor rgb '#202020'";
+    return sheet;
+}
+
+Sheet solution_sheet(const ErrorMap& map, int lode_observation::*what, const char* label, const std::string& stem,
+                     const std::string& title) {
+    Sheet sheet{stem, "", table_of(map), "", ""};
+    sheet.setup =
+        figure_setup(title, x_label, y_label) +
+        grid_of(map, [what](const ErrorMapCell& c) { return c.observation.value_or(lode_observation{}).*what; }) +
+        fmt::format(R"(set palette defined (0 '#ffffff', 0.25 '#fee8c8', 0.6 '#fdbb84', 1 '#e34a33')
+set cbrange [0:{}]
+set cblabel '{}'
+set size ratio -1
+set key off
+set autoscale fix
+)",
+                    std::max(map.most.*what, 1), label);
+    sheet.plot =
+        "plot $grid using 1:2:3 with image pixels, "
+        "$grid using 1:2:(sprintf('%d', $3)) with labels font ',8' textcolor rgb '#202020'";
     return sheet;
 }
 

@@ -1,4 +1,5 @@
-// Iso-error map: the error of a single increment over its size and direction, from a state at the elastic limit.
+// Iso-error map: the error of a single increment over its size and direction, from a state at the elastic limit, and
+// what its solution took.
 #ifndef LODE_HOST_ATLAS_ERROR_MAP_HPP
 #define LODE_HOST_ATLAS_ERROR_MAP_HPP
 
@@ -26,12 +27,14 @@ struct ErrorMapCell {
     double reference_error = 0;  // estimate
     double pnewdt = 1;           // below 1: a smaller increment was asked for
     double nanoseconds = 0;      // of the call
+    std::optional<lode_observation> observation;  // if the library says it
 };
 
 struct ErrorMap {
     std::vector<ErrorMapCell> cells;  // rows of y, x running first
     double largest = 0, mean = 0;     // of the cells that were done
     int cut_backs = 0;
+    lode_observation most{};  // of any cell
 };
 
 // From the virgin state to the elastic limit in the direction of a deviator (cohesive: of opening); then increments of
@@ -43,6 +46,9 @@ ErrorMap error_map(const Scenario& scenario, const Library& library, const Error
                    const std::optional<Scenario>& exact, Meter* meter);
 
 Sheet error_sheet(const ErrorMap& map, const std::string& stem, const std::string& title);
+// What the solution took, cell by cell: iterations, or steps of safeguards.
+Sheet solution_sheet(const ErrorMap& map, int lode_observation::*what, const char* label, const std::string& stem,
+                     const std::string& title);
 
 }  // namespace lode::host
 

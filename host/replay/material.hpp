@@ -24,6 +24,9 @@ class Material {
     // of the last one counts. 1 after construction.
     void repeat_calls(int times) { repeats_ = times; }
 
+    // From now on every answer says what its solution took, where the library can. Only UMAT has that.
+    virtual void observe() {}
+
     const CallCount& calls() const { return calls_; }
     // Things worth saying that are no error, e.g. that points of a block disagree.
     const std::vector<std::string>& remarks() const { return remarks_; }

@@ -2,9 +2,11 @@
 #ifndef LODE_HOST_REPLAY_POINT_HPP
 #define LODE_HOST_REPLAY_POINT_HPP
 
+#include <optional>
 #include <vector>
 
 #include "analysis.hpp"
+#include "lode/lode.h"
 
 namespace lode::host {
 
@@ -48,6 +50,7 @@ struct Response {
     double heat = 0;  // RPL
     double pnewdt = 1;
     double thickness_increment = 0;
+    std::optional<lode_observation> observation;  // if it was asked for and the library says it
 
     bool cut_wanted() const { return !(pnewdt >= 1); }
     bool finite() const { return stress.allFinite(); }

@@ -14,6 +14,7 @@ class Umat final : public Material {
     Umat(const Scenario& scenario, const Library& library)
         : layout_(scenario.analysis.kind),
           function_(library.umat()),
+          observed_function_(library.observed_umat()),
           name_(padded_material_name(scenario.material.name)),
           constants_(scenario.material.constants),
           element_length_(scenario.analysis.element_length),
@@ -25,6 +26,7 @@ class Umat final : public Material {
     }
 
     bool has_tangent() const override { return true; }
+    void observe() override { observes_ = observed_function_ != nullptr; }
 
     Response evaluate(const PointState& start, const Increment& increment) override {
         const int ntens = layout_.size(), nstatv = static_cast<int>(start.state.size());
@@ -56,15 +58,20 @@ class Umat final : public Material {
                 response.energies = entry.energies;
                 response.pnewdt = entry.pnewdt;
             }
-            function_(
-                response.stress.data(), address(response.state), response.tangent.data(), &response.energies.elastic,
-                &response.energies.plastic, &response.energies.creep, &response.heat, ddsddt.data(), drplde.data(),
-                &drpldt, stran.data(), dstran.data(), time.data(), &increment.dtime, &increment.temperature,
-                &increment.dtemperature, increment.fields.empty() ? none.data() : increment.fields.data(),
-                increment.dfields.empty() ? none.data() : increment.dfields.data(), name_.data(), &ndi_, &nshr_, &ntens,
-                &nstatv, constants_.empty() ? none.data() : constants_.data(), &nprops, coords.data(),
-                increment.rotation.data(), &response.pnewdt, &element_length_, increment.F0.data(), increment.F1.data(),
-                &noel, &npt, &layer, &kspt, jstep.data(), &increment.number, material_name_length);
+            const auto call = [&](auto* function, auto... first) {
+                function(first..., response.stress.data(), address(response.state), response.tangent.data(),
+                         &response.energies.elastic, &response.energies.plastic, &response.energies.creep,
+                         &response.heat, ddsddt.data(), drplde.data(), &drpldt, stran.data(), dstran.data(),
+                         time.data(), &increment.dtime, &increment.temperature, &increment.dtemperature,
+                         increment.fields.empty() ? none.data() : increment.fields.data(),
+                         increment.dfields.empty() ? none.data() : increment.dfields.data(), name_.data(), &ndi_,
+                         &nshr_, &ntens, &nstatv, constants_.empty() ? none.data() : constants_.data(), &nprops,
+                         coords.data(), increment.rotation.data(), &response.pnewdt, &element_length_,
+                         increment.F0.data(), increment.F1.data(), &noel, &npt, &layer, &kspt, jstep.data(),
+                         &increment.number, material_name_length);
+            };
+            if (observes_ && repeats_ == 1) call(observed_function_, &response.observation.emplace());
+            else call(function_);
         });
         return response;
     }
@@ -77,6 +84,8 @@ class Umat final : public Material {
 
     Layout layout_;
     UmatFunction function_;
+    lode_umat_observed_function* observed_function_;
+    bool observes_ = false;
     std::string name_;
     std::vector<double> constants_;
     double element_length_;

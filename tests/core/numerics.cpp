@@ -84,7 +84,9 @@ TEST(DenseNewton, LineSearchRescuesTheArcTangent) {
         const auto result = solve_dense_newton<1>(system, DenseVector<double, 1>{start}, 1e-14);
         EXPECT_TRUE(result.converged()) << start;
         EXPECT_NEAR(result.x[0], 0.0, 1e-14);
+        EXPECT_GT(result.safeguards, 0);
     }
+    EXPECT_EQ((solve_dense_newton<1>(system, DenseVector<double, 1>{1.0}, 1e-14).safeguards), 0);
 }
 
 TEST(DenseNewton, StaysInTheDomain) {

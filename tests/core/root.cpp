@@ -206,7 +206,24 @@ TEST(Root, SmoothProblemsTakeNewtonsIterations) {
     for (; std::abs(x * x - 2.0) > 1e-15; ++newton) x -= (x * x - 2.0) / (2.0 * x);
     const Root<double> root = solve_bracketed(residual, 0.0, 2.0, 2.0, 1e-15);
     EXPECT_EQ(root.iterations, newton);
+    EXPECT_EQ(root.safeguards, 0);
     EXPECT_EQ(root.x, x);
+}
+
+// Newton's first step from x = 4 leaves the bracket [-5, 5]; the end that it leaves through is asked for its sign, the
+// bracket is halved to x = -0.5, and from there Newton converges. An evaluation a step, and the first one.
+TEST(Root, CountsTheStepsThatAreNotNewtons) {
+    int evaluations = 0;
+    const auto residual = [&](double x) {
+        ++evaluations;
+        return Residual<double>{std::atan(x), 1.0 / (1.0 + x * x)};
+    };
+    const Root<double> root = solve_bracketed(residual, -5.0, 5.0, 4.0, 1e-15);
+    ASSERT_TRUE(root.converged);
+    EXPECT_EQ(root.safeguards, 2);
+    EXPECT_EQ(root.iterations, evaluations);
+    // Where the sign at the ends is known nothing is asked.
+    EXPECT_EQ((solve_bracketed<Slope::increasing>(residual, -5.0, 5.0, 4.0, 1e-15).safeguards), 1);
 }
 
 TEST(Root, DoesNotConvergeWithoutEnoughIterations) {

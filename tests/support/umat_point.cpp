@@ -128,17 +128,22 @@ Answer UmatPoint::evaluate(const Load& load) const {
     const auto number = [&](const char* name, int value) { return integers.input(name, value); };
 
     clear_captured_messages();
-    entry_(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, reals.input("STRAN", strain_),
-           reals.input("DSTRAN", dstran), reals.input("TIME", Numbers{step_time_, total_time_}),
-           reals.input("DTIME", load.dtime), reals.input("TEMP", temperature_), reals.input("DTEMP", load.dtemp),
-           reals.input("PREDEF", fields_), reals.input("DPRED", dpred), cmname.get(), number("NDI", ndi_),
-           number("NSHR", nshr_), number("NTENS", size()), number("NSTATV", static_cast<int>(state_.size())),
-           reals.input("PROPS", props_), number("NPROPS", static_cast<int>(props_.size())),
-           reals.input("COORDS", Numbers{0.1, 0.2, 0.3}), reals.input("DROT", column_major(load.drot)), pnewdt,
-           reals.input("CELENT", celent_), reals.input("DFGRD0", column_major(f_)),
-           reals.input("DFGRD1", column_major(load.dfgrd1.value_or(f_))), number("NOEL", 1), number("NPT", 1),
-           number("LAYER", 1), number("KSPT", 1), number("KSTEP", 1), number("KINC", increment_ + 1),
-           LODE_CMNAME_LENGTH);
+    lode_observation observation{};
+    const auto call = [&](auto* entry, auto... first) {
+        entry(first..., stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt,
+              reals.input("STRAN", strain_), reals.input("DSTRAN", dstran),
+              reals.input("TIME", Numbers{step_time_, total_time_}), reals.input("DTIME", load.dtime),
+              reals.input("TEMP", temperature_), reals.input("DTEMP", load.dtemp), reals.input("PREDEF", fields_),
+              reals.input("DPRED", dpred), cmname.get(), number("NDI", ndi_), number("NSHR", nshr_),
+              number("NTENS", size()), number("NSTATV", static_cast<int>(state_.size())), reals.input("PROPS", props_),
+              number("NPROPS", static_cast<int>(props_.size())), reals.input("COORDS", Numbers{0.1, 0.2, 0.3}),
+              reals.input("DROT", column_major(load.drot)), pnewdt, reals.input("CELENT", celent_),
+              reals.input("DFGRD0", column_major(f_)), reals.input("DFGRD1", column_major(load.dfgrd1.value_or(f_))),
+              number("NOEL", 1), number("NPT", 1), number("LAYER", 1), number("KSPT", 1), number("KSTEP", 1),
+              number("KINC", increment_ + 1), LODE_CMNAME_LENGTH);
+    };
+    if (load.observe) call(&lode_umat_observed, &observation);
+    else call(entry_);
 
     if (const std::string where = reals.damage() + integers.damage(); !where.empty())
         ADD_FAILURE() << name_ << ": UMAT wrote" << where;
@@ -155,6 +160,7 @@ Answer UmatPoint::evaluate(const Load& load) const {
     answer.rpl = *rpl;
     answer.drpldt = *drpldt;
     answer.pnewdt = *pnewdt;
+    answer.observation = observation;
     answer.cut = std::memcmp(pnewdt, &load.pnewdt, sizeof *pnewdt) != 0;
     answer.messages = std::move(captured_messages());
     if (!answer.done()) {

@@ -32,6 +32,7 @@ struct Load {
     std::optional<Matrix3d> dfgrd1 = {};   // F at the end; without it F stays
     Matrix3d drot = Matrix3d::Identity();  // STRESS is rotated by the host before the call, as the convention has it
     double pnewdt = 1.0;                   // on entry
+    bool observe = false;                  // by lode_umat_observed instead of umat_
 };
 
 // What came back.
@@ -39,8 +40,9 @@ struct Answer {
     Numbers stress, state, ddsddt, drplde;
     Eigen::MatrixXd tangent;  // DDSDDE
     double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, pnewdt = 0.0;
-    bool cut = false;       // PNEWDT was written: a smaller increment is wanted
-    HostMessages messages;  // errors, warnings and calls of XIT during the call
+    bool cut = false;                // PNEWDT was written: a smaller increment is wanted
+    lode_observation observation{};  // if it was asked for
+    HostMessages messages;           // errors, warnings and calls of XIT during the call
 
     bool done() const { return !cut && messages.stops == 0; }
     std::string first_error() const { return messages.errors.empty() ? "" : messages.errors.front(); }
