@@ -145,7 +145,7 @@ Sheets limit_point_maps(const Subject& s, bool) {
     return {limit_point_sheet(*limit, s.stem("limit_point"), s.title("stress control up to a limit point"))};
 }
 
-// With algorithms that are never at a loss there is nothing to see.
+// With algorithms that are never at a loss, or never need a safeguard, there is nothing to see.
 Sheets failure_maps(const Subject& s, bool quiet) {
     if (s.library.umat() == nullptr) return {};
     const Scenario scene = s.scenario();
@@ -160,8 +160,12 @@ Sheets failure_maps(const Subject& s, bool quiet) {
     const auto never = [](const AlgorithmRates& a) {
         return std::all_of(a.rates.begin(), a.rates.end(), [](const FailureRate& r) { return r.cut == 0; });
     };
-    if (std::all_of(rates.begin(), rates.end(), never)) return {};
-    return {failure_sheet(rates, s.stem("failures"), s.title("random increments that are refused"))};
+    Sheets sheets;
+    if (!std::all_of(rates.begin(), rates.end(), never))
+        sheets.push_back(failure_sheet(rates, s.stem("failures"), s.title("random increments that are refused")));
+    if (std::any_of(rates.begin(), rates.end(), [](const AlgorithmRates& a) { return a.is_ever_safeguarded(); }))
+        sheets.push_back(safeguard_sheet(rates, s.stem("fallbacks"), s.title("random increments with safeguards")));
+    return sheets;
 }
 
 Sheets constants_maps(const Subject& s, bool quiet) {

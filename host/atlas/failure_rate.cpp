@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
 
@@ -42,12 +43,13 @@ std::vector<AlgorithmRates> failure_rates(const Scenario& walker, const std::vec
     std::vector<AlgorithmRates> all;
     std::vector<std::unique_ptr<MaterialPoint>> points;
     for (const Algorithm& algorithm : algorithms) {
-        AlgorithmRates rates{algorithm.name, {}};
-        for (const double size : sizes) rates.rates.push_back({size, 0, 0, 0});
+        AlgorithmRates rates{algorithm.name, {}, false};
+        for (const double size : sizes) rates.rates.push_back({size});
         try {
             auto point = std::make_unique<MaterialPoint>(algorithm.scenario, library);
             // Constants are validated by the first call.
-            static_cast<void>(point->respond(Components::Zero(point->layout().size())));
+            point->observe();
+            rates.observed = point->respond(Components::Zero(point->layout().size())).observation.has_value();
             points.push_back(std::move(point));
             all.push_back(rates);
         } catch (const Refused&) {
@@ -69,31 +71,68 @@ std::vector<AlgorithmRates> failure_rates(const Scenario& walker, const std::vec
                 FailureRate& rate = all[i].rates[k];
                 ++rate.tried;
                 if (response.cut_wanted() || !response.finite()) ++rate.cut;
+                if (const auto& observed = response.observation) {
+                    rate.iterations += observed->iterations;
+                    rate.most_iterations = std::max(rate.most_iterations, observed->iterations);
+                    if (observed->safeguards > 0) ++rate.safeguarded;
+                }
                 rate.nanoseconds += points[i]->nanoseconds(dstrain, timed_calls);
             }
         }
     }
     for (AlgorithmRates& algorithm : all)
-        for (FailureRate& rate : algorithm.rates) rate.nanoseconds /= std::max(rate.tried, 1);
+        for (FailureRate& rate : algorithm.rates) {
+            rate.nanoseconds /= std::max(rate.tried, 1);
+            rate.iterations /= std::max(rate.tried, 1);
+        }
     return all;
 }
 
-Sheet failure_sheet(const std::vector<AlgorithmRates>& rates, const std::string& stem, const std::string& title) {
-    Sheet sheet{stem, title + "\n", Table({"algorithm", "increment", "tried", "cut", "percent", "ns"}), "", ""};
+bool AlgorithmRates::is_ever_safeguarded() const {
+    return std::any_of(rates.begin(), rates.end(), [](const FailureRate& r) { return r.safeguarded > 0; });
+}
+
+namespace {
+
+double percent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 0; }
+
+Table table_of(const std::vector<AlgorithmRates>& rates) {
+    const bool observed = std::any_of(rates.begin(), rates.end(), [](const AlgorithmRates& a) { return a.observed; });
+    std::vector<std::string> columns{"algorithm", "increment", "tried", "cut", "percent", "ns"};
+    if (observed) columns.insert(columns.end(), {"iterations", "most_iterations", "safeguarded_percent"});
+    Table table(columns);
+    for (const AlgorithmRates& algorithm : rates)
+        for (const FailureRate& r : algorithm.rates) {
+            std::vector<Cell> row{algorithm.name, r.size, r.tried, r.cut, percent(r.cut, r.tried), r.nanoseconds};
+            if (observed) row.insert(row.end(), {r.iterations, r.most_iterations, percent(r.safeguarded, r.tried)});
+            table.add(row);
+        }
+    return table;
+}
+
+// Two curves an algorithm over the size of the increment: a share in percent, and another measure, dashed.
+struct Curves {
+    const char *what, *share_label, *other_label, *other_unit;
+    int FailureRate::*share;
+    double FailureRate::*other;
+    bool logarithmic;  // the other one
+};
+
+Sheet curve_sheet(const std::vector<AlgorithmRates>& rates, const Curves& curves, const std::string& stem,
+                  const std::string& title) {
+    Sheet sheet{stem, title + "\n", table_of(rates), "", ""};
     std::string blocks;
     for (std::size_t i = 0; i < rates.size(); ++i) {
         const AlgorithmRates& algorithm = rates[i];
         blocks += fmt::format("$data{} << EOD\n", i);
         std::string line;
         for (const FailureRate& r : algorithm.rates) {
-            const double percent = r.tried > 0 ? 100.0 * r.cut / r.tried : 0;
-            sheet.table.add({algorithm.name, r.size, r.tried, r.cut, percent, r.nanoseconds});
-            blocks += fmt::format("{} {} {}\n", r.size, percent, r.nanoseconds);
-            line += fmt::format("  {:.2g}: {:.3g} %, {:.0f} ns;", r.size, percent, r.nanoseconds);
+            const double share = percent(r.*curves.share, r.tried);
+            blocks += fmt::format("{} {} {}\n", r.size, share, r.*curves.other);
+            line += fmt::format("  {:.2g}: {:.3g} %, {:.3g}{};", r.size, share, r.*curves.other, curves.other_unit);
         }
         blocks += "EOD\n";
-        sheet.text += fmt::format("  {}: cut-backs asked for, and time of a call, over the increment\n  {}\n",
-                                  algorithm.name, line);
+        sheet.text += fmt::format("  {}: {}, over the increment\n  {}\n", algorithm.name, curves.what, line);
         const auto curve = [&](int column, const char* axes, const char* style) {
             return fmt::format("{}$data{} using 1:{} axes {} with {} lc {} title '{}'",
                                sheet.plot.empty() ? "plot " : ", ", i, column, axes, style, i + 1,
@@ -102,16 +141,28 @@ Sheet failure_sheet(const std::vector<AlgorithmRates>& rates, const std::string&
         sheet.plot += curve(2, "x1y1", "linespoints lw 2 pt 7");
         sheet.plot += curve(3, "x1y2", "lines lw 1 dt 2");
     }
-    sheet.setup = figure_setup(title, "norm of the increment", "increments that are refused (%)") + blocks + R"(
-set logscale x
-set yrange [0:*]
-set ytics nomirror
-set y2label 'time of a call (ns), dashed'
-set y2tics
-set logscale y2
-set key top left
-)";
+    sheet.setup = figure_setup(title, "norm of the increment", curves.share_label) + blocks +
+                  fmt::format(
+                      "\nset logscale x\nset yrange [0:*]\nset ytics nomirror\nset y2label '{}'\nset y2tics\n{}"
+                      "set key top left\n",
+                      curves.other_label, curves.logarithmic ? "set logscale y2\n" : "set y2range [0:*]\n");
     return sheet;
+}
+
+}  // namespace
+
+Sheet failure_sheet(const std::vector<AlgorithmRates>& rates, const std::string& stem, const std::string& title) {
+    return curve_sheet(rates,
+                       {"cut-backs asked for, and time of a call", "increments that are refused (%)",
+                        "time of a call (ns), dashed", " ns", &FailureRate::cut, &FailureRate::nanoseconds, true},
+                       stem, title);
+}
+
+Sheet safeguard_sheet(const std::vector<AlgorithmRates>& rates, const std::string& stem, const std::string& title) {
+    return curve_sheet(rates,
+                       {"safeguards used, and mean iterations", "increments in which a safeguard took steps (%)",
+                        "mean iterations, dashed", "", &FailureRate::safeguarded, &FailureRate::iterations, false},
+                       stem, title);
 }
 
 }  // namespace lode::host
