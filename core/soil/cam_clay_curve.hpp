@@ -37,10 +37,10 @@ struct CamClayCurve {
         Real s_slope, h_rate;  // h_rate: dh/d delta
 
         // A point nearby to second order: the exponentials by their series, s by the change of its slope.
-        CurvePoint moved_to(const Real& target, double inverse_kappa, double w, const Real& s_curvature) const {
+        CurvePoint moved_to(const Real& target, const CamClayCurve& curve, const Real& s_curvature) const {
             CurvePoint x = *this;
             const Real step = target - zeta, delta_step = step * (zeta + target);
-            const Real a = inverse_kappa * delta_step, b = w * delta_step;
+            const Real a = curve.elasticity.inverse_kappa * delta_step, b = curve.w * delta_step;
             x.zeta = target;
             x.A = A - A * (a - 0.5 * (a * a));
             x.r = r + (1.0 + r) * (b + 0.5 * (b * b));
@@ -100,7 +100,7 @@ struct CamClayCurve {
                 const Mask<Real> small = size <= 1e-8 * at.zeta || size * last_change <= 1e-7 * square_zeta;
                 const Mask<Real> close = small && (w * at.zeta) * size <= Real(3e-6);
                 const Mask<Real> now = close && !lost && !found;
-                root.assign(now, at.moved_to(target, elasticity.inverse_kappa, w, s_curvature));
+                root.assign(now, at.moved_to(target, *this, s_curvature));
                 found = found || now;
                 if (all(found || lost)) break;
                 if (iteration > 1) before = R;
