@@ -17,6 +17,7 @@ struct CamClayCurve {
     double flow_factor;  // 6/M^2
     double inverse_M_square;
     double strain_per_stress;  // alpha = 0: s = strain_per_stress * A sqrt(r) on the curve
+    double third_M, scale;     // M/3, c (M/3)^2
 
     CamClayCurve(const CamClayElasticity& elastic, double lambda, double slope)
         : elasticity(elastic),
@@ -28,7 +29,9 @@ struct CamClayCurve {
           half_delta(0.69314718055994530942 / w),
           flow_factor(6.0 / (slope * slope)),
           inverse_M_square(1.0 / (slope * slope)),
-          strain_per_stress(elastic.alpha == 0.0 ? slope / (3.0 * elastic.mu0) : 0.0) {}
+          strain_per_stress(elastic.alpha == 0.0 ? slope / (3.0 * elastic.mu0) : 0.0),
+          third_M(slope / 3.0),
+          scale(elastic.c * third_M * third_M) {}
 
     // A point of the curve f = 0, R there, and slopes in zeta = sqrt(delta) (steps 5 to 7).
     template <class Real>
@@ -149,17 +152,16 @@ struct CamClayCurve {
             at.h = A * (1.0 - r);
             at.h_rate = -A * (2.0 * inverse_kappa + inverse_theta * pc_ratio);
         } else {
-            const Real inverse_mu = 1.0 / mu;
-            const Real a = (M / 3.0) * A * inverse_mu;
-            const Real j = elasticity.c * a * a, four_rjj = 4.0 * r * j * j;
+            const Real inverse_mu = 1.0 / mu, A_over_mu = A * inverse_mu;
+            const Real j = A_over_mu * ((scale * A) * inverse_mu), four_rjj = 4.0 * r * j * j;
             const Real B = 1.0 + j * (1.0 - r);
             const Real E = sqrt(B * B + four_rjj);
             Real sum = B + E;
             const Mask<Real> cancels = B < Real(0.0);
             if (any(cancels)) sum = select(cancels, four_rjj / select(cancels, E - B, Real(1.0)), sum);
             const Real inverse_sum = 1.0 / sum, inverse_rE = 1.0 / (r * E);
-            const Real rg = 2.0 * r * inverse_sum, z = j * rg;
-            at.s = a * sqrt(rg);
+            const Real z = j * (2.0 * r * inverse_sum);
+            at.s = (third_M * A_over_mu) * (sqrt(2.0 * r * sum) * inverse_sum);  // the root runs beside the division
             at.h = A * (1.0 + 2.0 * z - r);
             // d ln z/d delta = d ln(s^2)/d delta
             const Real mu0_share = (4.0 * elasticity.mu0 * inverse_kappa) * inverse_mu;
