@@ -32,9 +32,10 @@ struct Constants {
 
 // Each has code of its own.
 enum class Variant {
-    plain,    // no shift, linear pressure, recursions 0, 1, 3
-    uniform,  // the reduced time increment is DTIME
-    shifted   // each point has its own
+    plain,      // no shift, linear pressure, recursions 0, 1, 3
+    nonlinear,  // the same with PLAW > 0
+    uniform,    // the reduced time increment is DTIME
+    shifted     // each point has its own
 };
 
 // A point's numbers without their derivatives.
@@ -94,6 +95,9 @@ class Update {
         else return SeriesStep<double>(constants, max(dt.value, 0.0));
     }
     static constexpr bool is_plain = variant == Variant::plain;
+    static constexpr bool has_options = variant == Variant::uniform || variant == Variant::shifted;
+    LODE_INLINE bool has_linear_pressure() const { return is_plain || (has_options && c.pressure.is_linear()); }
+    LODE_INLINE bool is_trapezoidal() const { return has_options && c.recursion == Recursion::trapezoidal; }
 
     const Constants& c;
     [[no_unique_address]] Shared steps;
@@ -136,8 +140,8 @@ class Update {
         constexpr bool has_lateral = kind == AnalysisKind::plane_stress || kind == AnalysisKind::uniaxial;
         constexpr bool can_turn = !is_batch<Real> && kind != AnalysisKind::uniaxial;
         const int elements = c.shear.count, bulk_elements = c.bulk.count;
-        const bool is_linear = is_plain || c.pressure.is_linear();
-        const bool trapezoidal = !is_plain && c.recursion == Recursion::trapezoidal;
+        const bool is_linear = has_linear_pressure();
+        const bool trapezoidal = is_trapezoidal();
 
         // Free strain; the vertical shift at both ends.
         Real free_strain(0.0);
@@ -150,7 +154,7 @@ class Update {
                 return point.fail(!finite, "temperature or field 1 is not finite");
         }
         Plain<Real> b0(1.0), b1(1.0);
-        const bool shifts_vertically = !is_plain && c.has_vertical_shift;
+        const bool shifts_vertically = has_options && c.has_vertical_shift;
         if (shifts_vertically && !vertical_shift(increment, point, b0, b1)) [[unlikely]]
             return;
 
@@ -284,7 +288,7 @@ class Update {
                 if (shifts_vertically) point.stress[i] = point.stress[i] + (b1 - b0) * carried[j];
             }
         }
-        if (!is_plain) dissipated = b1 * dissipated;
+        if (has_options) dissipated = b1 * dissipated;
         const Real energy = (is_linear ? 0.5 * c.K0 * (V1 * V1) : volume_energy) + stored;
         point.elastic_energy = b1 * energy;
         point.viscous_dissipation = dissipated;
@@ -350,7 +354,7 @@ class Update {
                                     const Tensor<kind, Real>& eps, Mask<Real>& solved,
                                     const SolveCounter<Real>& solves) const {
         constexpr double lateral_components = kind == AnalysisKind::uniaxial ? 2.0 : 1.0;
-        const bool trapezoidal = !is_plain && c.recursion == Recursion::trapezoidal;
+        const bool trapezoidal = is_trapezoidal();
         const X G = c.G0 + step.shear.driven;
         const Real trace = d[0] + d[1] + d[2], de = d[2] - (1.0 / 3.0) * trace;
         Real half = c.G0 * e0 + G * de;
@@ -361,7 +365,7 @@ class Update {
             if (trapezoidal) half = half + (Gk * step.shear.B[k]) * e0;
         }
         const X deviatoric_slope = (2.0 - (2.0 / 3.0) * lateral_components) * G;
-        if (is_plain || c.pressure.is_linear()) {
+        if (has_linear_pressure()) {
             const X K = c.K0 + step.bulk.driven;
             Real mean = c.K0 * V0 + K * (trace - 3.0 * free_strain);
             for (int k = 0; k < c.bulk.count; ++k) {
@@ -414,6 +418,8 @@ struct Viscoelastic {
         switch (variant) {
             case Variant::plain:
                 return f(Kernel<Variant::plain>{&constants});
+            case Variant::nonlinear:
+                return f(Kernel<Variant::nonlinear>{&constants});
             case Variant::uniform:
                 return f(Kernel<Variant::uniform>{&constants});
             default:
@@ -456,8 +462,8 @@ struct Viscoelastic {
     static viscoelastic::Variant choose(const viscoelastic::Constants& c) {
         using viscoelastic::Variant;
         if (c.time.is_shifted()) return Variant::shifted;
-        const bool plain = c.pressure.is_linear() && c.recursion != Recursion::trapezoidal && !c.has_vertical_shift;
-        return plain ? Variant::plain : Variant::uniform;
+        if (c.recursion == Recursion::trapezoidal || c.has_vertical_shift) return Variant::uniform;
+        return c.pressure.is_linear() ? Variant::plain : Variant::nonlinear;
     }
 };
 
