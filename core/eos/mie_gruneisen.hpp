@@ -65,7 +65,7 @@ struct Kernel {
             const auto trial = k.b + finite_j2::congruence<kind>(f, cpi);
             r = plasticity.respond(trial, Real(c.shear), inverse2, J, alpha, law, point.solves);
             d = Real(1.0 / c.shear) * r.s;
-            excess = finite_j2::mean_excess(d, point.solves);
+            excess = finite_j2::mean_excess(d);
             work = r.dalpha * r.measure * r.K;
         }
 

@@ -212,18 +212,16 @@ struct Plasticity {
 // convex right of -1: Newton's method from p/3 steps to its right at the latest in the first iteration and then
 // descends.
 template <AnalysisKind kind, class Real>
-LODE_INLINE Real mean_excess(const Stress<kind, Real>& d, const SolveCounter<Real>& solves) {
+LODE_INLINE Real mean_excess(const Stress<kind, Real>& d) {
     const Real p = 0.5 * double_contraction(d, d), det = determinant_of(d);
     Real w = (1.0 / 3.0) * p;
-    int iteration = 1;
-    for (; iteration <= 60; ++iteration) {
+    for (int iteration = 0; iteration < 60; ++iteration) {
         const Real value = ((w + 3.0) * w + (3.0 - p)) * w - p + det;
         const Real step = value / ((3.0 * w + 6.0) * w + (3.0 - p));
         w = w - step;
         if (all(abs(step) <= 1e-8 * abs(w))) break;
         if (all(abs(step) <= Real(1e-160))) break;
     }
-    solves.count(iteration);
     return w;
 }
 

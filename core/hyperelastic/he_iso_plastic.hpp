@@ -69,7 +69,7 @@ struct Kernel {
         auto stress = inverse_J * r.s;
         add_to_normals(stress, 3, c.dilatation.derivative(v));
         const auto d = (1.0 / shear) * r.s;  // dev(bbar)
-        const Real excess = finite_j2::mean_excess(d, point.solves);
+        const Real excess = finite_j2::mean_excess(d);
         point.elastic_energy = v.inverse * (c.dilatation.energy(v) + 1.5 * c.moduli.shear * excess);
         const Real work = r.dalpha * r.measure * r.K;
         Real dissipated(0.0);
