@@ -92,9 +92,45 @@ TEST(FailureRate, TheTextbookNewtonOfCamClayFailsWhereTheDefaultDoesNot) {
         EXPECT_EQ(algorithm.rates[0].cut, 0) << algorithm.name;
     }
     for (const std::size_t default_and_substeps : {0U, 1U, 2U}) EXPECT_EQ(rates[default_and_substeps].rates[1].cut, 0);
+    // Page 70: some five iterations in an increment as large; the guard refuses before anything is solved.
+    for (const AlgorithmRates& algorithm : rates) EXPECT_TRUE(algorithm.observed);
+    EXPECT_GT(rates[0].rates[1].iterations, 1);
+    EXPECT_LT(rates[0].rates[1].iterations, 8);
+    EXPECT_FALSE(rates[3].is_ever_safeguarded());
     EXPECT_GT(rates[4].rates[1].cut, 5) << "page 70: a fifth of increments of this size fail from the old state";
     // Hardly any direction of this norm stays below the guard of 0.5 in each component.
     EXPECT_GT(rates[0].rates[2].cut, 90);
+}
+
+// What the library says of its solutions stands in every cell: a closed form takes nothing, substeps are as many as
+// were asked for, saturating hardening iterates beyond the elastic limit and only there.
+TEST(ErrorMap, SaysWhatTheSolutionsTook) {
+    LODE_NEEDS("ISO_PLASTIC");
+    const std::vector<double> saturating{200000, 0.3, 400, 8, 300, 12, 500};
+    struct Line {
+        std::vector<double> constants;
+        int substeps;
+        bool iterates;
+    };
+    for (const Line& line : {Line{perfect, 0, false}, {with_method(perfect, 2, 8), 8, false}, {saturating, 0, true}}) {
+        const Scenario scene = material("ISO_PLASTIC-X", line.constants);
+        auto axes = usual_axes(scene, library(), 0.006);
+        ASSERT_TRUE(axes);
+        axes->x = {-0.5, 1, 3};
+        axes->y = {0, 2};
+        const ErrorMap map = error_map(scene, library(), *axes, std::nullopt, nullptr);
+        for (const ErrorMapCell& cell : map.cells) {
+            ASSERT_TRUE(cell.observation);
+            const bool plastic = cell.x > 0 || cell.y > 0;
+            EXPECT_EQ(cell.observation->iterations > 0, plastic && line.iterates);
+            EXPECT_EQ(cell.observation->safeguards, 0);
+            EXPECT_EQ(cell.observation->substeps, line.substeps);
+        }
+        const Sheet sheet = error_sheet(map, "stem", "title");
+        EXPECT_TRUE(
+            sheet.table.text().starts_with("x,y,error,reference_error,pnewdt,ns,iterations,safeguards,substeps\n"));
+        EXPECT_EQ(map.most.iterations > 0, line.iterates);
+    }
 }
 
 // Page 20: largest and mean error over the grid, n equal substeps.

@@ -25,6 +25,13 @@ TEST_F(Catalogue, ModelsAreFoundByMaterialName) {
     expect_all(model_table(library), {"SPRING", "A finite model", "2/3", "3d plane_stress"});
 }
 
+// A library of others: what it has is used, what it lacks is not asked for.
+TEST(LibraryOfOthers, SaysNothingOfItsSolutions) {
+    const Library others(HOST_TEST_LIBRARY);
+    EXPECT_NE(others.umat(), nullptr);
+    EXPECT_EQ(others.observed_umat(), nullptr);
+}
+
 TEST_F(Catalogue, ReferencePage) {
     expect_all(reference_page(spring, library),
                {"# SPRING: A spring", "Shows what a page looks like.", "3d (3,3), plane_stress (2,1)", "UNSYMM",
