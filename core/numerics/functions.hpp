@@ -83,6 +83,36 @@ LODE_INLINE double logarithm(double x) {
     return k * ln2_high + (logarithm_table.logarithm[bin] + (k * ln2_low + (r + r2 * q)));
 }
 
+// Two numbers at once.
+typedef double Pair [[gnu::vector_size(16)]];
+typedef std::uint64_t PairBits [[gnu::vector_size(16)]];
+
+// x^n of both lanes in the steps of `logarithm` and `reduce`; `usual` is false where these are not enough.
+LODE_INLINE Pair power(const Pair& x, const Pair& n, bool& usual) {
+    constexpr std::uint64_t one = std::bit_cast<std::uint64_t>(1.0), integer = std::bit_cast<std::uint64_t>(0x1p52);
+    const auto bits = std::bit_cast<PairBits>(x), above = bits - LogarithmTable::first;
+    const Pair k = std::bit_cast<Pair>(((above + one) >> 52) | integer) - (0x1p52 + 1023.0);
+    const PairBits mantissa = above & 0x000fffffffffffffu, bin = mantissa >> (52 - LogarithmTable::bits);
+    const auto m = std::bit_cast<Pair>(mantissa + LogarithmTable::first);
+    const Pair inverse{logarithm_table.inverse[bin[0]], logarithm_table.inverse[bin[1]]};
+    const Pair table{logarithm_table.logarithm[bin[0]], logarithm_table.logarithm[bin[1]]};
+    const Pair r = m * inverse - 1.0, r2 = r * r, r4 = r2 * r2;
+    const Pair p0 = -1.0 / 2 + r * (1.0 / 3), p1 = -1.0 / 4 + r * (1.0 / 5), p2 = -1.0 / 6 + r * (1.0 / 7);
+    const Pair p3 = -1.0 / 8 + r * (1.0 / 9), p = (p0 + r2 * p1) + r4 * (p2 + r2 * p3);
+    const Pair y = n * ((k * ln2_high + table) + ((k * ln2_low + r) + r2 * p));
+    const auto inside = (x > 1e-300) & (x < 1e300) & (y > -708.0) & (y < 709.0);
+    usual = (inside[0] & inside[1]) != 0;
+
+    const Pair shifted = y * 1.4426950408889634074 + shifter, whole = shifted - shifter;
+    const Pair e = (y - whole * ln2_high) - whole * ln2_low, e2 = e * e, e4 = e2 * e2;
+    const Pair q0 = 1.0 / 2 + e * (1.0 / 6), q1 = 1.0 / 24 + e * (1.0 / 120), q2 = 1.0 / 720 + e * (1.0 / 5040);
+    const Pair q3 = 1.0 / 40320 + e * (1.0 / 362880), q4 = 1.0 / 3628800 + e * (1.0 / 39916800);
+    const Pair q5 = 1.0 / 479001600 + e * (1.0 / 6227020800);
+    const Pair q = (q0 + e2 * q1) + e4 * ((q2 + e2 * q3) + e4 * (q4 + e2 * q5));
+    const auto scale = std::bit_cast<Pair>((std::bit_cast<PairBits>(shifted) << 52) + one);
+    return (scale * e2) * q + (scale * e + scale);
+}
+
 // The same without a table: ln m = 2 artanh(f/(2 + f)), f = m - 1 in [-0.29, 0.41] (coefficients of Sun's fdlibm).
 LODE_INLINE Batch logarithm(const Batch& x) {
     using Bits = xsimd::batch<std::uint64_t>;
@@ -131,11 +161,17 @@ LODE_INLINE Real quick_log(const Real& x) {
 template <class Real>
 LODE_INLINE Real estimated_log(const Real& x) {
     constexpr double per_bit = 0.69314718055994530942 / 0x1p52, of_one = 1022.957 * 0.69314718055994530942;
-    if constexpr (std::is_same_v<Real, double>)
-        return static_cast<double>(std::bit_cast<std::int64_t>(x)) * per_bit - of_one;
-    else if constexpr (is_batch<Real>)
+    if constexpr (std::is_same_v<Real, double>) {
+        using functions_detail::Pair;
+        // All but the last 11 bits become the fraction of a number from 2^52 on, without leaving the vector registers.
+        const auto bits = std::bit_cast<functions_detail::PairBits>(Pair{x, 0.0});
+        const auto number = std::bit_cast<Pair>((bits >> 11) | std::bit_cast<std::uint64_t>(0x1p52));
+        return number[0] * (0x1p11 * per_bit) - (of_one + 0x1p63 * per_bit);
+    } else if constexpr (is_batch<Real>) {
         return xsimd::to_float(xsimd::bitwise_cast<xsimd::batch<std::int64_t>>(x)) * per_bit - of_one;
-    else return log(x);
+    } else {
+        return log(x);
+    }
 }
 // ln(1 + x), accurate relative to itself, for a normal number 1 + x > 0: what rounding takes from 1 + x is given back.
 // Errors are below 2.5 units.
@@ -153,6 +189,30 @@ template <class Real>
 LODE_INLINE Real quick_pow(const Real& x, double n) {
     const auto positive = x > Real(1e-300);
     return select(positive, quick_exp(n * quick_log(select(positive, x, Real(1.0)))), Real(0.0));
+}
+
+template <class Real>
+struct TwoPowers {
+    Real first, second;
+};
+template <class Real>
+[[gnu::noinline, gnu::cold]] TwoPowers<Real> powers_apart(Real x, double n, Real y, double m) {
+    return {quick_pow(x, n), quick_pow(y, m)};
+}
+// x^n and y^m. Side by side where one number leaves registers unused.
+template <class Real>
+LODE_INLINE TwoPowers<Real> quick_pow(const Real& x, double n, const Real& y, double m) {
+#if defined(__FMA__)
+    if constexpr (std::is_same_v<Real, double>) {
+        using functions_detail::Pair;
+        bool usual;
+        const Pair both = functions_detail::power(Pair{x, y}, Pair{n, m}, usual);
+        if (!usual) [[unlikely]]
+            return powers_apart(x, n, y, m);
+        return {both[0], both[1]};
+    }
+#endif
+    return {quick_pow(x, n), quick_pow(y, m)};
 }
 
 }  // namespace lode

@@ -176,7 +176,7 @@ struct SaturationHardening {
         const Real bent = min(x, Real(straight_from));
         const Real decayed = quick_expm1(-rate * bent);
         const Real bend = range * rate * (1.0 + decayed);
-        FlowStress<Real> k{yield - range * decayed + modulus * bent, bend + modulus, -rate * bend};
+        FlowStress<Real> k{(yield + modulus * bent) - range * decayed, bend + modulus, -rate * bend};
         if (straight_from < HUGE_VAL) {
             k.value = k.value + straight_slope * (x - bent);
             k.curvature = select(x < Real(straight_from), k.curvature, Real(0.0));

@@ -225,9 +225,9 @@ class ReturnToYield {
         const Real share = 1.0 / (1.0 + compliance_ * bend);
         const Real m = compliance_ * bend * share;
         const Real L = (law_.rate * compliance_) * share * excess, L2 = L * L;
-        const Real a3 = m * (0.5 * m - 1.0 / 6.0), a4 = (1.0 / 24.0) * m - (m * m) * (5.0 / 12.0 - 0.625 * m);
-        const Real z0 = L * ((1.0 + (0.5 * m) * L) + L2 * (a3 + a4 * L));
-        const Real inverse_slope = (1.0 + m * L) + L2 * (3.0 * a3 + 4.0 * a4 * L);
+        const Real a3 = m * (0.5 * m - 1.0 / 6.0), a4 = m * (1.0 / 24.0 - m * (5.0 / 12.0 - 0.625 * m));
+        const Real z0 = L + L2 * (0.5 * m + L * (a3 + a4 * L));
+        const Real inverse_slope = (1.0 + m * L) + L2 * (3.0 * a3 + (4.0 * a4) * L);
         const Real phi = hardening_detail::DecayRemainder::short_series(z0);
         const Real d = inverse_slope * (m * phi - (z0 - L)), x = law_.inverse_rate * (z0 + d);
         const Real bend_end = bend * (((1.0 - z0) + phi) * (1.0 - d));

@@ -3,6 +3,7 @@
 // T = 1 - T*^m, T* = (theta - TREF)/(TMELT - TREF).
 #pragma once
 
+#include "lode/numerics/near_power.hpp"
 #include "lode/plasticity/hardening_law.hpp"
 #include "lode/plasticity/surroundings.hpp"
 
@@ -17,12 +18,13 @@ class JohnsonCook {
     struct At {
         // No flag comes last: GCC would copy the struct byte by byte, and keep it in memory.
         Mask<Real> melted;
-        bool solved;
+        bool solved, starts_at_power;
+        Real power;                      // alpha^n, where it starts so
         Real thermal, star, star_power;  // T, T*, T*^m
-        double rate_scale;               // rate/EPS0 of dalpha = 1
-        double slowest;                  // dalpha at r = RMIN; infinite where nothing depends on the rate
-        // Left by `solve`: R at the end and its derivative by dalpha over R; (Y + B alpha^n) T there.
-        Real end_ratio, end_ratio_change, end_hardening;
+        double rate_scale;               // rate/EPS0 of dalpha = 1; 0 where nothing depends on the rate
+        // Left by `solve`: R at the end and its derivative by dalpha over R; (Y + B alpha^n) T there; S/(S + H),
+        // H = dK/dalpha.
+        Real end_ratio, end_ratio_change, end_hardening, end_share;
     };
 
     // `h` is the index of H1.
@@ -37,7 +39,8 @@ class JohnsonCook {
           fast_factor_(p[h + 6]),
           fast_exponent_(p[h + 7] != 0.0 ? p[h + 7] : 1.0),
           stiffness_{radial, axial},
-          inverse_stiffness_{1.0 / radial, 1.0 / axial} {
+          inverse_stiffness_{1.0 / radial, 1.0 / axial},
+          near_power_(exponent_) {
         if (rise_ < 0.0) p.refuse(h, ">= 0");
         if (exponent_ <= 0.0) p.refuse(h + 1, "> 0");
         if (rate_factor_ < 0.0) p.refuse(h + 2, ">= 0");
@@ -56,7 +59,7 @@ class JohnsonCook {
         if (slowest <= lowest || slowest > 1.0)
             p.refuse(h + 8, "in (exp(-1/C), 1] = (" + format_number(lowest) + ", 1]: the yield stress stays positive");
         log_slowest_ = std::log(slowest);
-        slowest_rate_ = slowest * rate_;
+        slowest_ = slowest;
         ignores_rate_ = rate_factor_ == 0.0 && fast_factor_ == 0.0;
         slow_ratio_ = 1.0 + rate_factor_ * log_slowest_;
         inverse_slow_ratio_ = 1.0 / slow_ratio_;
@@ -70,34 +73,31 @@ class JohnsonCook {
 
     template <class Real>
     LODE_INLINE At<Real> at(const Surroundings<Real>& s) const {
-        At<Real> at{.melted = Mask<Real>(false),
-                    .solved = false,
-                    .thermal = Real(1.0),
-                    .star = Real(0.0),
-                    .star_power = Real(0.0),
-                    .rate_scale = 0.0,
-                    .slowest = HUGE_VAL,
-                    .end_ratio = Real(slow_ratio_),
-                    .end_ratio_change = Real(0.0),
-                    .end_hardening = Real(0.0)};
-        if (per_range_ != 0.0) {
-            at.star = (s.temperature - reference_temperature_) * per_range_;
-            at.melted = at.star >= Real(1.0);
-            const Real inside = min(max(at.star, Real(0.0)), Real(1.0));
-            at.star_power = thermal_exponent_ == 1.0 ? inside : quick_pow(inside, thermal_exponent_);
-            at.thermal = 1.0 - at.star_power;
-        }
-        if (!ignores_rate_ && s.time.value > 0.0) {
-            at.rate_scale = min(s.time.inverse * inverse_rate_, 1e280);
-            at.slowest = slowest_rate_ * s.time.value;
-        }
+        At<Real> at;
+        set_surroundings(at, s);
+        if (has_power_of_temperature()) at.star_power = quick_pow(at.star_power, thermal_exponent_);
+        at.thermal = 1.0 - at.star_power;
         return at;
+    }
+    // The same for a step from `alpha`.
+    template <class Real>
+    LODE_INLINE void set(At<Real>& at, const Surroundings<Real>& s, const Real& alpha) const {
+        set_surroundings(at, s);
+        const Real base = bounded(alpha);
+        at.starts_at_power = true;
+        if (has_power_of_temperature()) {
+            const auto [power, star_power] = quick_pow(base, exponent_, at.star_power, thermal_exponent_);
+            at.power = power, at.star_power = star_power;
+        } else {
+            at.power = quick_pow(base, exponent_);
+        }
+        at.thermal = 1.0 - at.star_power;
     }
 
     // K at rate 0.
     template <class Real>
     LODE_INLINE FlowStress<Real> start(const At<Real>& at, const Real& alpha) const {
-        const FlowStress<Real> h = strain_hardening(alpha);
+        const FlowStress<Real> h = at.starts_at_power ? strain_hardening(alpha, at.power) : strain_hardening(alpha);
         const Real factor = slow_ratio_ * at.thermal;
         return {factor * h.value, factor * h.slope, factor * h.curvature};
     }
@@ -126,10 +126,12 @@ class JohnsonCook {
         at.solved = true;
         at.end_hardening = inverse_slow_ratio_ * k.value;
         const Real upper = select(yields, (q_trial - k.value) * inverse_S, Real(1.0));
-        Solution<Real> end{{upper, k}, at.end_ratio, at.end_ratio_change, at.end_hardening, Mask<Real>(false)};
+        Solution<Real> end{{upper, k},       at.end_ratio, at.end_ratio_change,
+                           at.end_hardening, at.end_share, Mask<Real>(false)};
         if constexpr (!is_differentiated<Real>)
-            if (at.slowest < HUGE_VAL) {
-                end = step_from(start_of(S, at, q_trial, k, upper), S, at, q_trial, alpha);
+            if (at.rate_scale > 0.0) {
+                const Real x = start_of(S, at, q_trial, k, upper);
+                end = step_from(x, risen(at, k, alpha, x, yields), S, at, q_trial, alpha);
                 solves.count(1);
             }
         if (!all(end.found || !yields)) [[unlikely]] {
@@ -141,11 +143,12 @@ class JohnsonCook {
         at.end_ratio = select(yields, end.ratio, at.end_ratio);
         at.end_ratio_change = select(yields, end.ratio_change, at.end_ratio_change);
         at.end_hardening = select(yields, end.hardening, at.end_hardening);
+        at.end_share = select(yields, end.share, at.end_share);
         return end.result;
     }
     template <Line line>
-    double plastic_share(const At<double>&, double H) const {
-        return stiffness_[line] / (stiffness_[line] + H);
+    LODE_INLINE double plastic_share(const At<double>& at, double H) const {
+        return at.solved ? at.end_share : stiffness_[line] / (stiffness_[line] + H);
     }
 
     template <class Real>
@@ -184,6 +187,23 @@ class JohnsonCook {
     }
 
   private:
+    // All but the powers: T* within [0, 1] in place of T*^m.
+    template <class Real>
+    LODE_INLINE void set_surroundings(At<Real>& at, const Surroundings<Real>& s) const {
+        at.melted = Mask<Real>(false), at.solved = false, at.starts_at_power = false;
+        at.star = Real(0.0), at.star_power = Real(0.0), at.power = Real(0.0);
+        if (per_range_ != 0.0) {
+            at.star = (s.temperature - reference_temperature_) * per_range_;
+            at.melted = at.star >= Real(1.0);
+            at.star_power = min(max(at.star, Real(0.0)), Real(1.0));
+        }
+        at.rate_scale = ignores_rate_ || !(s.time.value > 0.0) ? 0.0 : min(s.time.inverse * inverse_rate_, 1e280);
+        at.end_ratio = Real(slow_ratio_), at.end_ratio_change = Real(0.0), at.end_hardening = Real(0.0);
+        at.end_share = Real(1.0);
+    }
+
+    LODE_INLINE bool has_power_of_temperature() const { return per_range_ != 0.0 && thermal_exponent_ != 1.0; }
+
     template <class Real>
     struct Ratio {
         Real value, slope, bend;  // R and its derivatives by ln(dalpha)
@@ -195,12 +215,12 @@ class JohnsonCook {
     }
     template <class Real>
     LODE_INLINE Ratio<Real> ratio(const At<Real>& at, const Real& L) const {
-        if (at.slowest == HUGE_VAL) return {Real(slow_ratio_), Real(0.0), Real(0.0)};
+        if (at.rate_scale == 0.0) return {Real(slow_ratio_), Real(0.0), Real(0.0)};
         const auto above = L > Real(log_slowest_);
         const Real bounded = max(L, Real(log_slowest_));
         Ratio<Real> r{1.0 + rate_factor_ * bounded, select(above, Real(rate_factor_), Real(0.0)), Real(0.0)};
-        if (fast_factor_ != 0.0) {
-            const auto fast = L > Real(0.0);
+        const auto fast = L > Real(0.0);
+        if (fast_factor_ != 0.0 && any(fast)) {
             const Real base = select(fast, L, Real(1.0));
             const Real extra = fast_factor_ * (fast_exponent_ == 1.0 ? base : quick_pow(base, fast_exponent_));
             const Real slope = fast_exponent_ * extra / base, bend = (fast_exponent_ - 1.0) * slope / base;
@@ -215,18 +235,36 @@ class JohnsonCook {
     LODE_INLINE FlowStress<Real> strain_hardening(const Real& alpha) const {
         return PowerHardening{yield_, rise_, exponent_}.flow_stress(alpha);
     }
+    // The same with the power at hand.
+    template <class Real>
+    LODE_INLINE FlowStress<Real> strain_hardening(const Real& alpha, const Real& power) const {
+        const Real per_base = 1.0 / bounded(alpha);
+        Real rise = rise_ * power;
+        const Real slope = exponent_ * rise * per_base;
+        const auto tiny = alpha < Real(PowerHardening::smallest);
+        if (any(tiny)) [[unlikely]]
+            rise = select(tiny, rise_ * quick_pow(alpha, exponent_), rise);
+        return {yield_ + rise, slope, (exponent_ - 1.0) * slope * per_base};
+    }
+    template <class Real>
+    LODE_INLINE static Real bounded(const Real& alpha) {
+        return max(alpha, Real(PowerHardening::smallest));
+    }
 
     template <class Real>
     struct Solution {
         ReturnResult<Real> result;
-        Real ratio, ratio_change, hardening;  // see At
+        Real ratio, ratio_change, hardening, share;  // see At
         Mask<Real> found;
     };
     template <class Real>
     LODE_INLINE static Solution<Real> either_end(const Mask<Real>& first, const Solution<Real>& a,
                                                  const Solution<Real>& b) {
-        return {either(first, a.result, b.result), select(first, a.ratio, b.ratio),
-                select(first, a.ratio_change, b.ratio_change), select(first, a.hardening, b.hardening),
+        return {either(first, a.result, b.result),
+                select(first, a.ratio, b.ratio),
+                select(first, a.ratio_change, b.ratio_change),
+                select(first, a.hardening, b.hardening),
+                select(first, a.share, b.share),
                 (first && a.found) || (!first && b.found)};
     }
 
@@ -243,44 +281,65 @@ class JohnsonCook {
         const Real B = h * r.slope, c = upper * (S + h1 * r.value), over = q_trial - h * r.value;
         Real slow(1.0);
         if (any(over < Real(0.0))) slow = quick_exp(min(over, Real(0.0)) / max(B, Real(1e-300)));
-        Real v = slow * (B + positive_part(over)) / (B + c * slow);
-        v = v * (B + over - B * estimated_log(v)) / (B + c * v);
+        // The first step leads from v = slow to v = first/per, and the second from there.
+        const Real first = slow * (B + positive_part(over)), per = B + c * slow;
+        const Real log_v = estimated_log(first) - estimated_log(per);
+        const Real v = first * (B + over - B * log_v) / (B * per + c * first);
         return upper * min(max(v, Real(1e-12)), Real(1.0));
     }
 
-    // From x to x (1 + p).
+    // B T (alpha + x)^n.
+    template <class Real>
+    LODE_INLINE Real risen(const At<Real>& at, const Real& alpha, const Real& x) const {
+        return (rise_ * at.thermal) * quick_exp(exponent_ * quick_log(alpha + x));
+    }
+    // The same from its value at alpha, that of `k`, where x < alpha.
+    template <class Real>
+    LODE_INLINE Real risen(const At<Real>& at, const FlowStress<Real>& k, const Real& alpha, const Real& x,
+                           const Mask<Real>& yields) const {
+        const Real z = select(yields, x * (1.0 / bounded(alpha)), Real(0.0));
+        const auto near = z <= Real(near_power_.reach());
+        const Real power = (inverse_slow_ratio_ * k.value - yield_ * at.thermal) * near_power_(z);
+        if (all(near || !yields)) [[likely]]
+            return power;
+        return select(near, power, risen(at, alpha, x));
+    }
+
+    // From x to x (1 + p); `raised` is B T (alpha + x)^n.
     template <class Real, class Number>
-    LODE_INLINE Solution<Real> step_from(const Real& x, const Number& S, const At<Real>& at, const Real& q_trial,
-                                         const Real& alpha) const {
+    LODE_INLINE Solution<Real> step_from(const Real& x, const Real& raised, const Number& S, const At<Real>& at,
+                                         const Real& q_trial, const Real& alpha) const {
         const double(&c)[4] = binomial_;
         const Real a = alpha + x, per_a = 1.0 / a, t = x * per_a, L = log_rate(at, x);
-        const Real base = yield_ * at.thermal, raised = (rise_ * at.thermal) * quick_exp(exponent_ * quick_log(a));
+        const Real base = yield_ * at.thermal, drop = S * x;
         const Ratio<Real> r = ratio(at, L);
-        // g R and its derivatives by p.
-        const Real g = base + raised, turn = t * raised;
-        const Real g1 = c[0] * turn, g2 = (2.0 * c[1]) * (t * turn), g3 = (6.0 * c[2]) * (t * t * turn);
-        const Real r2 = r.bend - r.slope, r3 = 2.0 * r.slope - 3.0 * r.bend;
-        const Real f1 = S * x + g1 * r.value + g * r.slope, f2 = g2 * r.value + 2.0 * g1 * r.slope + g * r2;
-        const Real f3 = g3 * r.value + 3.0 * g2 * r.slope + 3.0 * g1 * r2 + g * r3;
-        const Real inverse = 1.0 / f1, b = (0.5 * inverse) * f2;
-        const Real first = inverse * (q_trial - S * x - g * r.value);
-        const Real p = first * (1.0 - first * (b - first * (2.0 * (b * b) - (1.0 / 6.0 * inverse) * f3)));
+        // g R, g = base + raised, and its derivatives by p; sums begin with what is known before `raised`.
+        const Real g = base + raised, r2 = r.bend - r.slope, r3 = 2.0 * r.slope - 3.0 * r.bend;
+        const Real t1 = c[0] * t, t2 = (2.0 * c[1]) * (t * t), t3 = (6.0 * c[2]) * (t * t * t);
+        const Real f1 = (drop + base * r.slope) + raised * (t1 * r.value + r.slope);
+        const Real f2 = base * r2 + raised * ((t2 * r.value + r2) + 2.0 * (t1 * r.slope));
+        const Real f3 = base * r3 + raised * ((t3 * r.value + r3) + 3.0 * (t2 * r.slope + t1 * r2));
+        const Real inverse = 1.0 / f1, b = inverse * (0.5 * f2);
+        const Real first = inverse * ((q_trial - drop - base * r.value) - raised * r.value), first2 = first * first;
+        const Real p = (first - first2 * b) + (first2 * first) * (2.0 * (b * b) - inverse * (1.0 / 6.0 * f3));
 
         const Real u = p * t, u2 = u * u, p2 = p * p;
-        const Real e = g + raised * (u * ((c[0] + u * c[1]) + u2 * (c[2] + u * c[3])));
+        const Real e = g + (raised * u) * ((c[0] + u * c[1]) + u2 * (c[2] + u * c[3]));
         const Real e1 = (raised * per_a) * ((c[0] + u * (2.0 * c[1])) + u2 * (3.0 * c[2] + u * (4.0 * c[3])));
-        const Real longer = p * ((1.0 - 0.5 * p) + p2 * ((1.0 / 3 - 0.25 * p) + p2 * (0.2 - (1.0 / 6) * p)));
-        const Ratio<Real> there = ratio(at, L + longer);
-        const Real last = inverse * (q_trial - S * (x + p * x) - e * there.value) * (1.0 - 2.0 * (b * p));
-        const Real dalpha = x + x * (p + last);
+        const Real longer = p + p2 * ((p * (1.0 / 3) - 0.5) + p2 * ((0.2 * p - 0.25) - (1.0 / 6) * p2));
+        Ratio<Real> there{r.value + rate_factor_ * longer, r.slope, Real(0.0)};
+        if (fast_factor_ != 0.0) there = ratio(at, L + longer);
+        const Real last = ((q_trial - drop) - drop * p - e * there.value) * (inverse * (1.0 - 2.0 * (b * p)));
+        const Real dalpha = (x + x * p) + x * last;
         const Real change = there.slope / (there.value * dalpha);
         Mask<Real> found = abs(p) < Real(6e-3) && abs(u) < Real(1.5e-3) && abs(last) <= Real(1e-9) &&
-                           x > Real(2.0 * at.slowest) && at.thermal > Real(0.0);
+                           at.rate_scale * x > Real(2.0 * slowest_) && at.thermal > Real(0.0);
         if (fast_factor_ != 0.0) found = found && abs(longer) < abs(L);
         return {{dalpha, {q_trial - S * dalpha, there.value * (e1 + e * change), Real(0.0)}},
                 there.value + there.slope * last,
                 change,
                 e + e1 * (x * last),
+                S * dalpha / (dalpha * (S + there.value * e1) + e * there.slope),
                 found};
     }
 
@@ -298,11 +357,15 @@ class JohnsonCook {
             const Real k1 = at.thermal * (h1 * r.value + h.value * r.slope);
             const Real k2 = at.thermal * (h2 * r.value + 2.0 * (h1 * r.slope) + h.value * r.bend);
             const Real g = at.thermal * h.value, k = g * r.value, drop = S * x, per_x = 1.0 / x;
-            return Trial<Real>{
-                q_trial - drop - k,
-                Real(0.0) - drop - k1,
-                Real(0.0) - drop - k2,
-                {{x, {k, k1 * per_x, Real(0.0)}}, r.value, r.slope * per_x / r.value, g, Mask<Real>(true)}};
+            return Trial<Real>{q_trial - drop - k,
+                               Real(0.0) - drop - k1,
+                               Real(0.0) - drop - k2,
+                               {{x, {k, k1 * per_x, Real(0.0)}},
+                                r.value,
+                                r.slope * per_x / r.value,
+                                g,
+                                drop / (drop + k1),
+                                Mask<Real>(true)}};
         };
     }
     template <class Real>
@@ -318,11 +381,11 @@ class JohnsonCook {
                                                          Mask<Real> active, SolveCounter<Real> solves) {
         const Mask<Real> found(true);
         Solution<Real> end{
-            {upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0), Real(0.0), found};
+            {upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0), Real(0.0), Real(1.0), found};
         if constexpr (!is_differentiated<Real>)
-            for (int i = 0; i < 2 && at.slowest < HUGE_VAL; ++i) {
+            for (int i = 0; i < 2 && at.rate_scale > 0.0; ++i) {
                 x = max(min(x, upper), 0.01 * upper);
-                const Solution<Real> next = self.step_from(x, S, at, q_trial, alpha);
+                const Solution<Real> next = self.step_from(x, self.risen(at, alpha, x), S, at, q_trial, alpha);
                 solves.count(1);
                 const Mask<Real> here = active && next.found;
                 end = either_end(here, next, end);
@@ -336,11 +399,11 @@ class JohnsonCook {
         const Mask<Real> solid = active && at.thermal > Real(0.0);
         // At r = RMIN the stress tells on which side the root is.
         Mask<Real> fast(false);
-        if (at.slowest < HUGE_VAL)
-            fast = solid && q_trial - S * at.slowest > self.flow(at, alpha, Real(at.slowest)).value;
+        const double slowest = at.rate_scale > 0.0 ? self.slowest_ / at.rate_scale : 1.0;
+        if (at.rate_scale > 0.0) fast = solid && q_trial - S * slowest > self.flow(at, alpha, Real(slowest)).value;
         if (any(fast)) {
             const auto root = solve_bracketed<Slope::decreasing>(self.in_logarithm<true>(at, q_trial, alpha, S),
-                                                                 Real(quick_log(at.slowest)), ln(fast, upper),
+                                                                 Real(quick_log(slowest)), ln(fast, upper),
                                                                  ln(fast, upper), tolerance, fast);
             solves.count(root);
             end = either_end(fast, root.last.end, end);
@@ -367,8 +430,9 @@ class JohnsonCook {
     double yield_, rise_, exponent_, rate_factor_, rate_, thermal_exponent_, reference_temperature_;
     double fast_factor_, fast_exponent_;
     double stiffness_[2], inverse_stiffness_[2];
-    double per_range_ = 0.0, log_slowest_, slowest_rate_, slow_ratio_, inverse_slow_ratio_, inverse_rate_;
+    double per_range_ = 0.0, slowest_, log_slowest_, slow_ratio_, inverse_slow_ratio_, inverse_rate_;
     double binomial_[4];  // of the exponent
+    NearPower near_power_;
     bool ignores_rate_;
 };
 

@@ -70,7 +70,9 @@ class IncrementRules {
             if (const DislocationHardening* memory = memory_of_law())
                 s.densities = memory->initial(Densities<Real>{point.state[RC], point.state[RW]});
         s.time = increment.time_increment;
-        step.at = law.at(s);
+        // In place, where a law can: a copy of many members would wait for the stores before it.
+        if constexpr (requires { law.set(step.at, s, step.alpha); }) law.set(step.at, s, step.alpha);
+        else step.at = law.at(s);
         step.keeps_plastic_strain = point.state.has(EP + 5);
         return true;
     }

@@ -31,7 +31,8 @@ class Kernel : public PlaneStressReturn<Law> {
     LODE_INLINE bool correct(const Increment<kind, Real>& increment, Point<kind, Real>& point,
                              Step<kind, Real, Law>& step, T& tangent) const {
         step.start = law.start(step.at, step.alpha);
-        step.end = step.start;
+        // Entry by entry: a copy of the whole would wait for the stores before it.
+        step.end.value = step.start.value, step.end.slope = step.start.slope, step.end.curvature = step.start.curvature;
         step.dalpha = Real(0.0);
         if constexpr (kind == AnalysisKind::plane_stress)
             return this->return_in_plane_stress(increment, point, step, tangent);
@@ -52,7 +53,7 @@ class Kernel : public PlaneStressReturn<Law> {
         const auto G = shear(step.at);
         const double K = c.elastic.bulk;
         const Real mean = (1.0 / 3.0) * trace(point.stress) + K * trace(step.strain);
-        const Stress<kind, Real> s_start = deviator(point.stress), strain = deviator(step.strain);
+        Stress<kind, Real> s_start = deviator(point.stress), strain = deviator(step.strain);
         const Stress<kind, Real> s_trial = s_start + Real(2.0 * G) * strain;
         const Real q_trial = sqrt(1.5 * double_contraction(s_trial, s_trial));
 
@@ -79,7 +80,7 @@ class Kernel : public PlaneStressReturn<Law> {
                 // D = K 1x1 + 2G theta I_dev - 2G theta_bar n x n, n = s_trial/|s_trial| = sqrt(3/2) s_trial/q_trial
                 const double share = law.template plastic_share<radial>(step.at, step.end.slope);
                 const double theta_bar = share - (1.0 - theta);
-                const double along_flow = 3.0 * G * theta_bar * inverse_q * inverse_q;
+                const double along_flow = theta_bar * (3.0 * G * (inverse_q * inverse_q));
                 set_isotropic_less_dyad(tangent, K - (2.0 / 3.0) * G * theta, 2.0 * G * theta, along_flow, s_trial);
                 const HeatSlopes slopes = heat_slopes(step);
                 const double heat = heat_per_strain(increment, slopes) * share * inverse_q;

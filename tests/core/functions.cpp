@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "lode/numerics/near_power.hpp"
+
 using namespace lode;
 
 namespace {
@@ -75,4 +77,40 @@ TEST(Functions, Power) {
             for (const double result : both([n](const auto& y) { return quick_pow(y, n); }, x))
                 EXPECT_NEAR(result, std::pow(x, n),
                             2.0 * epsilon * (1.0 + std::abs(n * std::log(std::max(x, 1e-12)))) * std::pow(x, n));
+}
+
+// Two powers at once are those of one number each, also where one of them needs more than the common steps.
+TEST(Functions, TwoPowers) {
+    const auto allowed = [](double x, double n) {
+        return 2.0 * epsilon * (1.0 + std::abs(n * std::log(std::max(x, 1e-300)))) * std::pow(x, n);
+    };
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> magnitude(-20.0, 5.0), exponent(0.01, 3.0);
+    for (int i = 0; i < 20000; ++i) {
+        const double x = i % 50 == 0 ? 0.0 : std::exp(magnitude(random)), y = std::exp(magnitude(random));
+        const double n = exponent(random), m = exponent(random);
+        const auto [first, second] = quick_pow(x, n, y, m);
+        EXPECT_NEAR(first, std::pow(x, n), allowed(x, n)) << x << " " << n;
+        EXPECT_NEAR(second, std::pow(y, m), allowed(y, m)) << y << " " << m;
+    }
+    const auto of_batch = quick_pow(Batch(0.3), 0.26, Batch(2.0), 1.5);
+    EXPECT_EQ(of_batch.first.get(0), quick_pow(Batch(0.3), 0.26).get(0));
+    EXPECT_EQ(of_batch.second.get(0), quick_pow(Batch(2.0), 1.5).get(0));
+    EXPECT_EQ(quick_pow(1e-280, 3.0, 0.5, 1.0).first, quick_pow(1e-280, 3.0));
+}
+
+// (1 + z)^n within its reach; exponents that are too large for the approximation say so.
+TEST(Functions, NearPower) {
+    for (const double n : {0.01, 0.26, 0.5, 0.9, 1.0, 1.5, 3.0}) {
+        const NearPower power(n);
+        ASSERT_EQ(power.reach(), 1.0) << n;
+        for (int i = 0; i <= 1000; ++i) {
+            const double z = 1e-3 * i;
+            const auto exact = static_cast<double>(std::pow(1.0L + z, static_cast<long double>(n)));
+            EXPECT_NEAR(power(z), exact, 6.0 * epsilon * exact) << n << " " << z;
+            EXPECT_NEAR(power(Batch(z)).get(0), exact, 6.0 * epsilon * exact) << n << " " << z;
+        }
+    }
+    EXPECT_LT(NearPower(20.0).reach(), 0.0);
+    EXPECT_LT(NearPower(std::nan("")).reach(), 0.0);
 }
