@@ -51,10 +51,11 @@ struct DecoupledInterface {
 
         // 2. failure, at the point of the path where it happens
         result.failed = failed_before;
-        Mask<Real> fails = (result.dn >= Real(normal.end)) | (result.dt >= Real(shear.end));
+        Mask<Real> fails = or_without_branch<Mask<Real>>(result.dn >= Real(normal.end), result.dt >= Real(shear.end));
         if (exponent_I > 0.0) {
-            const Mask<Real> grows = (result.dn > dn_old) | (result.dt > dt_old);
-            fails = fails | (grows & (released_fraction(result.GI, result.GII) >= one));
+            const auto grows = or_without_branch<Mask<Real>>(result.dn > dn_old, result.dt > dt_old);
+            const Mask<Real> meets = released_fraction(result.GI, result.GII) >= one;
+            fails = or_without_branch<Mask<Real>>(fails, and_without_branch<Mask<Real>>(grows, meets));
         }
         if (any(fails)) [[unlikely]] {
             fails = fails && !failed_before;

@@ -62,6 +62,17 @@ constexpr Real select(bool condition, const Real& yes, const Real& no) {
 }
 constexpr bool any(bool condition) { return condition; }
 constexpr bool all(bool condition) { return condition; }
+// Both sides are evaluated, so that no branch hangs on the first one.
+template <class Condition>
+constexpr Condition or_without_branch(const Condition& a, const Condition& b) {
+    if constexpr (std::is_same_v<Condition, bool>) return (static_cast<int>(a) | static_cast<int>(b)) != 0;
+    else return a || b;
+}
+template <class Condition>
+constexpr Condition and_without_branch(const Condition& a, const Condition& b) {
+    if constexpr (std::is_same_v<Condition, bool>) return (static_cast<int>(a) & static_cast<int>(b)) != 0;
+    else return a && b;
+}
 
 // Reads `lanes` consecutive numbers (one for a single point); writes them.
 template <class Real>
