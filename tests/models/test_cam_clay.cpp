@@ -779,20 +779,18 @@ TEST(CamClayRandom, NoIncrementFails) {
     EXPECT_GT(plastic, increments * states / 10);
 }
 
-// The source's Newton on three unknowns, from such states: how often it fails ("Cost and accuracy"), and that its
-// answers are those of the scalar equation.
-TEST(CamClay, F6_TextbookNewtonFailsAsThePageSays) {
-    struct Bin {
-        double smallest, largest;
-        double page[2];  // from the trial state, from the old one
-        int plastic, failed[2];
-    };
-    Bin bins[] = {{1e-4, 1e-3, {0.001, 0.013}, 0, {}},
-                  {1e-3, 1e-2, {0.001, 0.049}, 0, {}},
-                  {1e-2, 1e-1, {0.025, 0.20}, 0, {}},
-                  {0.1, 0.3, {0.12, 0.37}, 0, {}}};
+// Sizes of the trial steps of the page's table ("Cost and accuracy").
+struct StepSize {
+    double smallest, largest;
+};
+constexpr StepSize step_sizes[] = {{1e-4, 1e-3}, {1e-3, 1e-2}, {1e-2, 1e-1}, {0.1, 0.3}};
+
+// Walks of random clays by eight steps of these sizes in turn. visit(which size, answer of method 0, what it took,
+// by_method) of every plastic one; by_method(1 or 2, observation) does the same step by the textbook's Newton. Of the
+// others, which ask for no solution, nothing may be counted.
+template <class Visit>
+void visit_random_steps(const Visit& visit) {
     RandomClay random;
-    int others = 0, found = 0;
     for (int material = 0; material < 4000; ++material) {
         Numbers props = random.props();
         props.resize(14, 0.0);
@@ -804,39 +802,61 @@ TEST(CamClay, F6_TextbookNewtonFailsAsThePageSays) {
                 Properties(CamClay::description, "CAM_CLAY-RANDOM", props.data(), static_cast<int>(props.size())));
         }
         double v = 0.0, s = 0.0, pc_now = 100.0 * props[6], log_pc = std::log(props[6]);
-        for (int i = 0; i < 8; ++i) {
-            Bin& bin = bins[i % 4];
+        for (std::size_t i = 0; i < 8; ++i) {
+            const StepSize& bin = step_sizes[i % 4];
             const double size = random.log_uniform(bin.smallest, bin.largest), angle = random.uniform(0.0, 6.28318);
             const double v_trial = v + size * std::cos(angle), s_trial = std::abs(s + size * std::sin(angle));
             if (log_pc - v_trial / props[1] > 600.0 || std::abs(v_trial) / props[1] > 600.0) continue;
-            const auto step = [&](int method) {
-                return models[static_cast<std::size_t>(method)].plasticity.step<double>(v_trial, s_trial, pc_now,
-                                                                                        log_pc, v, s);
+            const auto by_method = [&](int method, lode_observation& took) {
+                return models[static_cast<std::size_t>(method)].plasticity.step<double>(
+                    v_trial, s_trial, pc_now, log_pc, v, s, SolveCounter<double>(took));
             };
-            const CamClayStep<double> right = step(0);
+            lode_observation took{};
+            const CamClayStep<double> right = by_method(0, took);
             EXPECT_FALSE(right.failed);
             if (right.plastic && s_trial > 1e-15) {
-                ++bin.plastic;
-                for (const int method : {1, 2}) {
-                    const CamClayStep<double> tried = step(method);
-                    if (tried.failed) {
-                        ++bin.failed[method - 1];
-                        continue;
-                    }
-                    ++found;
-                    others += std::abs(tried.p - right.p) + std::abs(tried.q - right.q) > 1e-8 * right.pc;
-                }
+                visit(i % 4, right, took, by_method);
+            } else {
+                ASSERT_EQ(took.iterations, 0);
             }
             v = right.v, s = right.s, pc_now = right.pc, log_pc = right.log_pc;
         }
     }
+}
+
+// The source's Newton on three unknowns, from such states: how often it fails ("Cost and accuracy"), and that its
+// answers are those of the scalar equation.
+TEST(CamClay, F6_TextbookNewtonFailsAsThePageSays) {
+    struct Bin {
+        double page[2];  // from the trial state, from the old one
+        int plastic, failed[2];
+    };
+    Bin bins[] = {{{0.001, 0.013}, 0, {}}, {{0.001, 0.049}, 0, {}}, {{0.025, 0.20}, 0, {}}, {{0.12, 0.37}, 0, {}}};
+    int others = 0, found = 0;
+    visit_random_steps(
+        [&](std::size_t which, const CamClayStep<double>& right, const lode_observation&, const auto& by_method) {
+            Bin& bin = bins[which];
+            ++bin.plastic;
+            for (const int method : {1, 2}) {
+                lode_observation textbook{};
+                const CamClayStep<double> tried = by_method(method, textbook);
+                if (tried.failed) {
+                    ++bin.failed[method - 1];
+                    continue;
+                }
+                ++found;
+                others += std::abs(tried.p - right.p) + std::abs(tried.q - right.q) > 1e-8 * right.pc;
+            }
+        });
     // The page's population of states is not known in detail, hence the factor of two.
-    for (const Bin& bin : bins)
+    for (std::size_t which = 0; which < 4; ++which)
         for (const int start : {0, 1}) {
+            const Bin& bin = bins[which];
+            const StepSize& size = step_sizes[which];
             const double rate = static_cast<double>(bin.failed[start]) / bin.plastic;
             std::printf("[ increments of %g to %g, Newton from the %s state: fails in %.2f %% of %d steps ]\n",
-                        bin.smallest, bin.largest, start == 0 ? "trial" : "old", 100 * rate, bin.plastic);
-            if (bin.smallest >= 1e-2) {
+                        size.smallest, size.largest, start == 0 ? "trial" : "old", 100 * rate, bin.plastic);
+            if (size.smallest >= 1e-2) {
                 EXPECT_GT(rate, 0.5 * bin.page[start]);
                 EXPECT_LT(rate, 2.0 * bin.page[start]);
             } else {
@@ -852,55 +872,31 @@ TEST(CamClay, F6_TextbookNewtonFailsAsThePageSays) {
 // it is the bracket that is looked for and repaired first, evaluations that the page does not count.
 TEST(CamClay, IterationsAreThoseOfThePage) {
     struct Bin {
-        double smallest, largest;
         int plastic = 0, safeguarded = 0, most = 0;
         double sum = 0.0;
     };
-    Bin bins[] = {{1e-4, 1e-3}, {1e-3, 1e-2}, {1e-2, 1e-1}, {0.1, 0.3}};
-    RandomClay random;
+    Bin bins[4];
     int lost = 0, plain = 0;  // steps that the textbook does not do, and those of them that need no safeguard here
-    for (int material = 0; material < 4000; ++material) {
-        Numbers props = random.props();
-        props.resize(14, 0.0);
-        props[11] = 1;
-        std::vector<CamClay> models;
-        for (const int method : {0, 1}) {
-            props[13] = method;
-            models.emplace_back(
-                Properties(CamClay::description, "CAM_CLAY-RANDOM", props.data(), static_cast<int>(props.size())));
-        }
-        double v = 0.0, s = 0.0, pc_now = 100.0 * props[6], log_pc = std::log(props[6]);
-        for (int i = 0; i < 8; ++i) {
-            Bin& bin = bins[i % 4];
-            const double size = random.log_uniform(bin.smallest, bin.largest), angle = random.uniform(0.0, 6.28318);
-            const double v_trial = v + size * std::cos(angle), s_trial = std::abs(s + size * std::sin(angle));
-            if (log_pc - v_trial / props[1] > 600.0 || std::abs(v_trial) / props[1] > 600.0) continue;
-            lode_observation took{}, textbook{};
-            const CamClayStep<double> step =
-                models[0].plasticity.step<double>(v_trial, s_trial, pc_now, log_pc, v, s, SolveCounter<double>(took));
-            if (step.plastic && s_trial > 1e-15) {
-                ++bin.plastic;
-                bin.sum += took.iterations;
-                bin.most = std::max(bin.most, took.iterations);
-                bin.safeguarded += took.safeguards > 0;
-                ASSERT_GT(took.iterations, took.safeguards);
-                ASSERT_LE(took.iterations - took.safeguards, 11);
-                const CamClayStep<double> tried = models[1].plasticity.step<double>(v_trial, s_trial, pc_now, log_pc, v,
-                                                                                    s, SolveCounter<double>(textbook));
-                ASSERT_EQ(textbook.safeguards, 0);
-                ASSERT_LE(textbook.iterations, 50);
-                lost += tried.failed;
-                plain += tried.failed && took.safeguards == 0;
-            } else {
-                ASSERT_EQ(took.iterations, 0);
-            }
-            v = step.v, s = step.s, pc_now = step.pc, log_pc = step.log_pc;
-        }
-    }
-    for (const Bin& bin : bins)
+    visit_random_steps(
+        [&](std::size_t which, const CamClayStep<double>&, const lode_observation& took, const auto& by_method) {
+            Bin& bin = bins[which];
+            ++bin.plastic;
+            bin.sum += took.iterations;
+            bin.most = std::max(bin.most, took.iterations);
+            bin.safeguarded += took.safeguards > 0;
+            ASSERT_GT(took.iterations, took.safeguards);
+            ASSERT_LE(took.iterations - took.safeguards, 11);
+            lode_observation textbook{};
+            const CamClayStep<double> tried = by_method(1, textbook);
+            ASSERT_EQ(textbook.safeguards, 0);
+            ASSERT_LE(textbook.iterations, 50);
+            lost += tried.failed;
+            plain += tried.failed && took.safeguards == 0;
+        });
+    for (std::size_t which = 0; which < 4; ++which)
         std::printf("[ increments of %g to %g: %.2f iterations, at most %d, safeguards in %.2f %% of %d steps ]\n",
-                    bin.smallest, bin.largest, bin.sum / bin.plastic, bin.most, 100.0 * bin.safeguarded / bin.plastic,
-                    bin.plastic);
+                    step_sizes[which].smallest, step_sizes[which].largest, bins[which].sum / bins[which].plastic,
+                    bins[which].most, 100.0 * bins[which].safeguarded / bins[which].plastic, bins[which].plastic);
     std::printf("[ %d of %d steps on which the textbook Newton is lost need no safeguard ]\n", plain, lost);
     EXPECT_LE(bins[0].sum, 4.0 * bins[0].plastic);
     EXPECT_LE(bins[1].sum, 4.2 * bins[1].plastic);
