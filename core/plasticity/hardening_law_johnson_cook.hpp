@@ -19,9 +19,10 @@ class JohnsonCook {
         // No flag comes last: GCC would copy the struct byte by byte, and keep it in memory.
         Mask<Real> melted;
         bool solved, starts_at_power;
-        Real power;                      // alpha^n, where it starts so
-        Real thermal, star, star_power;  // T, T*, T*^m
-        double rate_scale;               // rate/EPS0 of dalpha = 1; 0 where nothing depends on the rate
+        Real power;                       // alpha^n, where it starts so
+        Real rough_power, rough_thermal;  // nearly alpha^n and T
+        Real thermal, star, star_power;   // T, T*, T*^m
+        double rate_scale;                // rate/EPS0 of dalpha = 1; 0 where nothing depends on the rate
         // Left by `solve`: R at the end and its derivative by dalpha over R; (Y + B alpha^n) T there; S/(S + H),
         // H = dK/dalpha.
         Real end_ratio, end_ratio_change, end_hardening, end_share;
@@ -86,12 +87,15 @@ class JohnsonCook {
         const Real base = bounded(alpha);
         at.starts_at_power = true;
         if (has_power_of_temperature()) {
-            const auto [power, star_power] = quick_pow(base, exponent_, at.star_power, thermal_exponent_);
-            at.power = power, at.star_power = star_power;
+            const auto powers = quick_pow(base, exponent_, at.star_power, thermal_exponent_);
+            at.power = powers.first, at.star_power = powers.second;
+            at.rough_power = powers.rough_first, at.rough_thermal = 1.0 - powers.rough_second;
+            at.thermal = 1.0 - at.star_power;
         } else {
             at.power = quick_pow(base, exponent_);
+            at.thermal = 1.0 - at.star_power;
+            at.rough_power = at.power, at.rough_thermal = at.thermal;
         }
-        at.thermal = 1.0 - at.star_power;
     }
 
     // K at rate 0.
@@ -130,7 +134,10 @@ class JohnsonCook {
                            at.end_hardening, at.end_share, Mask<Real>(false)};
         if constexpr (!is_differentiated<Real>)
             if (at.rate_scale > 0.0) {
-                const Real x = start_of(S, at, q_trial, k, upper);
+                Real x = at.starts_at_power ? start_near(S, inverse_S, at, q_trial, alpha)
+                                            : start_of(S, at, q_trial, inverse_slow_ratio_ * k.value,
+                                                       inverse_slow_ratio_ * k.slope, upper);
+                if constexpr (is_batch<Real>) x = select(yields, x, upper);  // a number in every lane
                 end = step_from(x, risen(at, k, alpha, x, yields), S, at, q_trial, alpha);
                 solves.count(1);
             }
@@ -192,6 +199,7 @@ class JohnsonCook {
     LODE_INLINE void set_surroundings(At<Real>& at, const Surroundings<Real>& s) const {
         at.melted = Mask<Real>(false), at.solved = false, at.starts_at_power = false;
         at.star = Real(0.0), at.star_power = Real(0.0), at.power = Real(0.0);
+        at.rough_power = Real(0.0), at.rough_thermal = Real(0.0);
         if (per_range_ != 0.0) {
             at.star = (s.temperature - reference_temperature_) * per_range_;
             at.melted = at.star >= Real(1.0);
@@ -273,19 +281,36 @@ class JohnsonCook {
 
     // Where the return would end if the strain hardening went on straight and R were straight in ln x. With v = x/upper
     // that is c v + B ln v = over, Newton's steps for which come near enough with estimates of the logarithm.
+    // `h` is the strain hardening at the start, `h1` its slope; they may be estimates.
     template <class Real, class Number>
-    LODE_INLINE Real start_of(const Number& S, const At<Real>& at, const Real& q_trial, const FlowStress<Real>& k,
+    LODE_INLINE Real start_of(const Number& S, const At<Real>& at, const Real& q_trial, const Real& h, const Real& h1,
                               const Real& upper) const {
-        const Real h = inverse_slow_ratio_ * k.value, h1 = inverse_slow_ratio_ * k.slope;
-        const Ratio<Real> r = ratio(at, estimated_log(at.rate_scale * upper));
+        const Real fastest = at.rate_scale * upper;
+        const Ratio<Real> r = ratio(at, estimated_log(fastest));
         const Real B = h * r.slope, c = upper * (S + h1 * r.value), over = q_trial - h * r.value;
+        // Where the logarithm rules, a third step is needed and an estimate not enough.
+        const auto ruled = over < B;
+        const bool any_ruled = any(ruled);
         Real slow(1.0);
-        if (any(over < Real(0.0))) slow = quick_exp(min(over, Real(0.0)) / max(B, Real(1e-300)));
+        if (any_ruled) slow = quick_exp(min(over, Real(0.0)) / max(B, Real(1e-300)));
         // The first step leads from v = slow to v = first/per, and the second from there.
         const Real first = slow * (B + positive_part(over)), per = B + c * slow;
         const Real log_v = estimated_log(first) - estimated_log(per);
-        const Real v = first * (B + over - B * log_v) / (B * per + c * first);
-        return upper * min(max(v, Real(1e-12)), Real(1.0));
+        Real v = first * (B + over - B * log_v) / (B * per + c * first);
+        if (any_ruled) {
+            const Ratio<Real> there = ratio(at, quick_log(max(fastest * v, Real(1e-300))));
+            const Real cv = c * v, step = (q_trial - h * there.value - cv) / (h * there.slope + cv);
+            v = select(ruled, v + v * step, v);
+        }
+        return upper * v;
+    }
+    // The same without waiting for the powers.
+    template <class Real, class Number>
+    LODE_INLINE Real start_near(const Number& S, const Number& inverse_S, const At<Real>& at, const Real& q_trial,
+                                const Real& alpha) const {
+        const Real raised = (rise_ * at.rough_thermal) * at.rough_power;
+        const Real h = yield_ * at.rough_thermal + raised, h1 = (exponent_ * raised) * (1.0 / bounded(alpha));
+        return start_of(S, at, q_trial, h, h1, (q_trial - slow_ratio_ * h) * inverse_S);
     }
 
     // B T (alpha + x)^n.
@@ -384,7 +409,7 @@ class JohnsonCook {
             {upper, {Real(0.0), Real(0.0), Real(0.0)}}, Real(self.slow_ratio_), Real(0.0), Real(0.0), Real(1.0), found};
         if constexpr (!is_differentiated<Real>)
             for (int i = 0; i < 2 && at.rate_scale > 0.0; ++i) {
-                x = max(min(x, upper), 0.01 * upper);
+                x = select(x > Real(0.0), min(x, upper), 0.01 * upper);
                 const Solution<Real> next = self.step_from(x, self.risen(at, alpha, x), S, at, q_trial, alpha);
                 solves.count(1);
                 const Mask<Real> here = active && next.found;
