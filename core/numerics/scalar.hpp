@@ -10,7 +10,7 @@
 #include <xsimd/xsimd.hpp>
 
 // For what must end up inside its caller, so that a material point lives in registers. Instrumented code, which takes
-// minutes a file if it is forced together, and code that is not optimised are left to the compiler.
+// minutes a file if it is forced together, and code that is not optimised, are left to the compiler.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
 #define LODE_INLINE inline
 #define LODE_INLINE_LAMBDA

@@ -298,9 +298,12 @@ class JohnsonCook {
         const Real log_v = estimated_log(first) - estimated_log(per);
         Real v = first * (B + over - B * log_v) / (B * per + c * first);
         if (any_ruled) {
-            const Ratio<Real> there = ratio(at, quick_log(max(fastest * v, Real(1e-300))));
-            const Real cv = c * v, step = (q_trial - h * there.value - cv) / (h * there.slope + cv);
-            v = select(ruled, v + v * step, v);
+            // The fast term bends R: the logarithm is approached in several steps.
+            for (int i = fast_factor_ == 0.0 ? 1 : 3; i > 0; --i) {
+                const Ratio<Real> there = ratio(at, quick_log(max(fastest * v, Real(1e-300))));
+                const Real cv = c * v, step = (q_trial - h * there.value - cv) / (h * there.slope + cv);
+                v = select(ruled, i == 1 ? v + v * step : v * quick_exp(min(step, Real(30.0))), v);
+            }
         }
         return upper * v;
     }

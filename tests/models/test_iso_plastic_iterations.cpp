@@ -84,18 +84,21 @@ TEST(IsoPlasticIterations, MethodsCountTheirSubsteps) {
 TEST(IsoPlasticIterations, JohnsonCookTakesOneOrTwoAtAnyStepAndRate) {
     const Numbers steel = {200000.0, 0.29, 792.0, 3, 510.0, 0.26, 0.014, 1.0, 1.03, 1520.0};
     const auto stretch = [](double size) { return Numbers{size, -0.5 * size, -0.5 * size, 0, 0, 0}; };
-    for (const double rate : {0.01, 1.0, 100.0, 1e4})
-        for (const double size : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
-            UmatPoint point("ISO_PLASTIC-STEEL", solid, steel);
-            for (int i = 0; i < 10; ++i) point.advance({.dstran = stretch(2e-3), .dtime = 2e-3 / rate});
-            for (int i = 0; i < 5; ++i) {
-                const Answer answer = point.advance({.dstran = stretch(size), .dtime = size / rate, .observe = true});
-                EXPECT_GT(answer.spd, 0.0);
-                EXPECT_GE(answer.observation.iterations, 1);
-                EXPECT_LE(answer.observation.iterations, size < 2e-6 ? 1 : 2) << size << " at " << rate << " /s";
-                EXPECT_EQ(answer.observation.safeguards, 0);
+    const Numbers copper = {124000.0, 0.34, 90.0, 3, 292.0, 0.31, 0.025, 1.0, 1.09, 1083.0, 0.01, 1.5};
+    for (const Numbers& metal : {steel, copper})
+        for (const double rate : {0.01, 1.0, 100.0, 1e4})
+            for (const double size : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
+                UmatPoint point("ISO_PLASTIC-METAL", solid, metal);
+                for (int i = 0; i < 10; ++i) point.advance({.dstran = stretch(2e-3), .dtime = 2e-3 / rate});
+                for (int i = 0; i < 5; ++i) {
+                    const Answer answer =
+                        point.advance({.dstran = stretch(size), .dtime = size / rate, .observe = true});
+                    EXPECT_GT(answer.spd, 0.0);
+                    EXPECT_GE(answer.observation.iterations, 1);
+                    EXPECT_LE(answer.observation.iterations, size < 2e-6 ? 1 : 2) << size << " at " << rate << " /s";
+                    EXPECT_EQ(answer.observation.safeguards, 0);
+                }
             }
-        }
 }
 
 // Steinberg and Lund's thermal part grows with the rate by an exponential of its square: from the start that a slow
