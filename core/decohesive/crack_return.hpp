@@ -118,11 +118,13 @@ inline Residual<double> mixed_mode(const CrackLaw& law, const PlaneStresses<doub
     return {x * root - nearer * over, root + (x + nearer) * Phi_x / (2.0 * root) - N_x * inverse_kappa * over};
 }
 
+inline constexpr double first_step = 1.0 / 1024.0;  // of the search, in the opening that is left to failure
+
 // The first change of sign of `value` (non-positive at `lower`, or non-negative if `falls`) on steps that double;
 // false if there is none up to `end`.
 template <class F>
 bool first_sign_change(const F& value, bool falls, double end, double& lower, double& upper) {
-    double step = (end - lower) * (1.0 / 1024.0);
+    double step = (end - lower) * first_step;
     for (;;) {
         upper = std::min(lower + step, end);
         const double v = value(upper);
@@ -214,14 +216,15 @@ CrackJump<Real> refined(const CrackLaw& law, const PlaneStresses<Real>& s, const
     return jump;
 }
 
-// Newton's method from near the solution; false, and the jump as it was, where it does not converge.
-inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u, double x_f, CrackJump<double>& jump,
-                   const SolveCounter<double>& solves) {
+// Newton's method from near the solution, whose opening lies in [lower, upper]; false, and the jump as it was, where it
+// does not converge or leaves that.
+inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u, double lower, double upper,
+                   CrackJump<double>& jump, const SolveCounter<double>& solves) {
     CrackJump<double> better = jump;
     for (int iteration = 0; iteration < 6; ++iteration) {
         const CrackJump<double> next = refined(law, s, u, better);
         solves.count(1);
-        if (!(next.n >= 0.0 && next.n <= x_f && next.omega >= 0.0)) return false;
+        if (!(next.n >= lower && next.n <= upper && next.omega >= 0.0)) return false;
         const double change = std::abs(next.n - better.n), omega_change = std::abs(next.omega - better.omega);
         better = next;
         // Of second order: what this step left is rounding.
@@ -233,9 +236,11 @@ inline bool polish(const CrackLaw& law, const PlaneStresses<double>& s, double u
     return false;
 }
 
-// The jump of a crack of opening u in the stress s that it would bear unopened. `failed`: it had failed before.
+// The jump of a crack of opening u in the stress s that it would bear unopened. `failed`: it had failed before. `near`:
+// the jump in a stress close to s, or none.
 inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<double>& s, double u, bool has_failed,
-                                    const SolveCounter<double>& solves) {
+                                    const SolveCounter<double>& solves,
+                                    const CrackJump<double>& near = CrackJump<double>::none()) {
     using namespace crack_return_detail;
     const double x_f = law.u_0 - u;
     CrackJump<double> jump = CrackJump<double>::none();
@@ -245,9 +250,15 @@ inline CrackJump<double> crack_jump(const CrackLaw& law, const PlaneStresses<dou
         if (decohesion(k, s, f) <= decohesion_tolerance) return jump;
         jump.response = CrackResponse::softening;
         if (!k.rankine) {
+            // Newton's method from there. Not farther than the first step of the search, so that it is the root that
+            // the search would find.
+            const double reach = first_step * x_f;
+            if (near.response == CrackResponse::softening) jump = near;
+            if (polish(law, s, u, std::max(jump.n - reach, 0.0), std::min(jump.n + reach, x_f), jump, solves))
+                return jump;
             // The root to a few digits, then Newton's method on the two equations, which are regular in mode I as well.
             if (!soften(law, s, u, x_f, 1e-5, jump, solves)) return failed(law, s, x_f);
-            if (polish(law, s, u, x_f, jump, solves)) return jump;
+            if (polish(law, s, u, 0.0, x_f, jump, solves)) return jump;
             solves.count(0, 1);
             soften(law, s, u, x_f, std::numeric_limits<double>::epsilon(), jump, solves);
             jump.eta = 1.0 / (1.0 + law.kappa * jump.omega);

@@ -316,7 +316,8 @@ class CrackSet {
             bool same = true;
             for (int j = 0; j < count; ++j) {
                 const CrackJump<double> old = jump(j);
-                jump(j) = crack_jump(law_, trial(j), start_opening(j), at(j).phase >= 2 || latched[index(j)], solves);
+                jump(j) =
+                    crack_jump(law_, trial(j), start_opening(j), at(j).phase >= 2 || latched[index(j)], solves, old);
                 latched[index(j)] = latched[index(j)] || (sweep >= latching && jump(j).has_failed());
                 change = std::max(change, difference(old, jump(j)));
                 same = same && old.response == jump(j).response;
@@ -348,7 +349,7 @@ class CrackSet {
             for (int j = 0; j < count; ++j) {
                 const PlaneStresses<double> s = trial(j);
                 const double u = start_opening(j);
-                next[index(j)] = crack_jump(law_, s, u, at(j).phase >= 2 || latched[index(j)], solves);
+                next[index(j)] = crack_jump(law_, s, u, at(j).phase >= 2 || latched[index(j)], solves, jump(j));
                 if (next[index(j)].response != saved[index(j)].response) {
                     jumps_ = saved;
                     return false;

@@ -53,6 +53,7 @@ class Cursor {
         if (real_size != sizeof(float) && real_size != sizeof(double)) throw Malformed{};
         if (count > bytes_.size() / real_size) throw Malformed{};
         std::vector<double> numbers(count);
+        if (count == 0) return numbers;
         const std::byte* const source = next(count * real_size);
         if (real_size == sizeof(double)) {
             std::memcpy(numbers.data(), source, count * sizeof(double));

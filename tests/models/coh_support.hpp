@@ -227,10 +227,11 @@ struct ModeRatio {
     double end = 0.0;  // s at failure
     double GI = 0.0, GII = 0.0;
 
-    // Where the path is after increment k of `steps`: small increments at both ends, the last one beyond failure.
+    // Where the path is after increment k of `steps`: small increments at both ends, the last one beyond failure. Where
+    // a law ends in a double root, rounding moves the failure by the root of it.
     double at(int k, int steps) const {
         const double x = static_cast<double>(k) / steps;
-        return (1.0 + 1e-10) * end * x * x * (3.0 - 2.0 * x);
+        return (1.0 + 1e-7) * end * x * x * (3.0 - 2.0 * x);
     }
 };
 inline ModeRatio mode_ratio(const std::string& keyword, const Numbers& props, int i, double far) {

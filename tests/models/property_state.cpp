@@ -108,9 +108,10 @@ TEST_P(Objectivity, UnderSuperposedRotation) {
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(c, seed);
-        UmatPoint plain = c.point(), turned = c.point();
+        UmatPoint plain = c.point(), turned = c.point(), nudged = c.point();
+        Random noise(c, 100 + seed);
         Matrix3d q = Matrix3d::Identity();  // the rotation on top
-        double strain = 0.0, stress = c.stress_scale(), count = 0.0, tolerance = 0.0;
+        double strain = 0.0, stress = c.stress_scale(), count = 0.0, tolerance = 0.0, grown = 0.0;
         Numbers reached(turned.state().size(), 0.0);  // what an entry holds is rounded at the size it has had
         for (const Step& step : random_path(c, random)) {
             const Matrix3d drot = random.rotation(c.kind, 1.0);
@@ -121,11 +122,14 @@ TEST_P(Objectivity, UnderSuperposedRotation) {
             turned_load.drot = drot;
             turned_load.dfgrd1 = q * *load.dfgrd1;
             const bool virgin = plain.spd() == 0.0;
+            Step nudged_step = step;
+            for (double& e : nudged_step.strain) e += noise.uniform(-4.0, 4.0) * epsilon * largest(step.strain);
+            nudged.step(load_of(nudged, nudged_step));
             const Answer a = plain.step(load), b = turned.step(turned_load);
             ASSERT_EQ(a.done(), b.done());
             // Of equivalent directions of damage each frame has chosen its own: go on with those of one.
             if (c.has_trait(LODE_FRAME_CHOICE) && virgin && plain.spd() > 0.0) {
-                turned = plain;
+                turned = nudged = plain;
                 turned.step({.dfgrd1 = turned_load.dfgrd1, .drot = q});
             }
             for (std::size_t i = 0; i < reached.size(); ++i)
@@ -137,7 +141,9 @@ TEST_P(Objectivity, UnderSuperposedRotation) {
             // an increment leaves is carried on by the following ones.
             // F itself is of order 1 and so are its rounding errors.
             const double size = c.reads_deformation ? 1.0 + strain : strain;
-            tolerance = 40.0 * count * epsilon * std::max(stress, c.stiffness * size);
+            // The directions of cracks can magnify them: by as much as they do a rounding of the strain.
+            grown = std::max(grown, distance(plain.stress(), nudged.stress()));
+            tolerance = std::max(40.0 * count * epsilon * std::max(stress, c.stiffness * size), 10.0 * grown);
             ASSERT_LE(distance(rotated_stress(plain.stress(), c.kind, q), turned.stress()), tolerance);
             const double energy_tolerance = tolerance * std::max(strain, c.scale());
             EXPECT_NEAR(plain.sse(), turned.sse(), energy_tolerance);

@@ -406,6 +406,70 @@ TEST(ElasticDecohesive, V6LocalSolution) {
     EXPECT_NEAR(jump.eta, 0.972602859675602, 1e-14);
 }
 
+// Newton's method from nothing and from a neighbour finds what the search finds.
+TEST(ElasticDecohesive, TheNearestSolutionIsThatOfTheSearch) {
+    const DecohesionConstants k = constants_of(T);
+    const IsotropicModuli moduli = IsotropicModuli::from_young_poisson(24.9e9, 0.18);
+    std::mt19937 random(80);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    int compared = 0;
+    for (const bool exponential : {false, true}) {
+        const CrackLaw law(k, exponential, 61.35, 0.0, 0.01, moduli, KindStiffness<solid>(moduli));
+        CrackJump<double> nowhere = CrackJump<double>::none(CrackResponse::softening);
+        for (int i = 0; i < 4000; ++i) {
+            const double u = 0.25 * law.u_0 * (1.0 + uniform(random)), f = law.softening(u);
+            PlaneStresses<double> s{2e6 * uniform(random), 4e6 * uniform(random), 4e6 * uniform(random),
+                                    5e6 * uniform(random), 5e6 * uniform(random), 3e6 * uniform(random)};
+            // Onto the surface from inside, and beyond it by a part of the stress.
+            if (decohesion(k, s, f) > 0.0) continue;
+            double inside = 0.0, outside = 1.0;
+            const auto scaled_by = [&s](double x) {
+                return PlaneStresses<double>{x * s.n, x * s.t, x * s.p, x * s.tt, x * s.pp, x * s.tp};
+            };
+            while (decohesion(k, scaled_by(outside), f) <= 0.0 && outside < 100.0) outside *= 2.0;
+            if (outside >= 100.0) continue;
+            for (int bisection = 0; bisection < 60; ++bisection) {
+                const double middle = 0.5 * (inside + outside);
+                (decohesion(k, scaled_by(middle), f) > 0.0 ? outside : inside) = middle;
+            }
+            for (const double beyond : {1e-6, 1e-4, 1e-2, 1.0}) {
+                nowhere.n = law.u_0 - u;
+                const PlaneStresses<double> over = scaled_by(outside * (1.0 + beyond));
+                const CrackJump<double> searched = crack_jump(law, over, u, false, {}, nowhere);
+                const CrackJump<double> direct = crack_jump(law, over, u, false, {});
+                const CrackJump<double> near =
+                    crack_jump(law, scaled_by(outside * (1.0 + 1.01 * beyond)), u, false, {});
+                for (const CrackJump<double>& found : {direct, crack_jump(law, over, u, false, {}, near)}) {
+                    ASSERT_EQ(found.response, searched.response);
+                    // What rounding of F leaves in an increment this small.
+                    const double relative = 1e-13 + 1e-13 / beyond;
+                    ASSERT_NEAR(found.n, searched.n, relative * searched.n);
+                    ASSERT_NEAR(found.omega, searched.omega, relative * searched.omega);
+                    ++compared;
+                }
+            }
+        }
+    }
+    EXPECT_GT(compared, 10000);
+}
+
+// The smaller the increment, the fewer: no search where the answer is near.
+TEST(ElasticDecohesive, SmallIncrementsTakeFewIterations) {
+    for (const double size : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+        UmatPoint point = concrete(solid, with(T, {{N_C, 3}}));
+        for (int i = 0; i < 10; ++i) point.advance({.dstran = {3e-5, 1e-5, -1e-5, 4e-5, 1e-5, -2e-5}});
+        for (int i = 0; i < 5; ++i) {
+            const Answer answer =
+                point.advance({.dstran = {size, 0.3 * size, -0.2 * size, size, 0.1 * size, 0}, .observe = true});
+            ASSERT_GE(point.state(J), 1.0);
+            EXPECT_GE(answer.observation.iterations, 1);
+            EXPECT_EQ(answer.observation.safeguards, 0);
+            // Three sweeps over the cracks and one attempt at all, of at most four steps each.
+            EXPECT_LE(answer.observation.iterations, 16 * point.state(J)) << size;
+        }
+    }
+}
+
 // --- V7: two cracks ----------------------------------------------------------------------------------------------
 
 TEST(ElasticDecohesive, V7TwoCracks) {
