@@ -140,7 +140,8 @@ class Kernel {
                     course.plastic_strain[i] + (i < 3 ? shear * s_trial[i] + mean : 2.0 * (shear * s_trial[i]));
         }
         course.alpha = course.alpha + end.dalpha;
-        course.cohesion = end.cohesion;
+        // Entry by entry: a copy of the whole would wait for the stores before it.
+        course.cohesion.value = end.cohesion.value, course.cohesion.slope = end.cohesion.slope;
         course.work = course.work + end.work();
         course.heat = course.heat + end.heat(c.initial_cohesion);
         course.volume = course.volume + end.volume;
@@ -157,10 +158,13 @@ class Kernel {
     LODE_INLINE void set_tangent(const Stress<kind, double>& s_trial, const ConeStep<double>& end,
                                  Course<kind, double>& course, Tangent<kind>& tangent) const {
         constexpr int n = components(kind);
-        if (!end.yields) return c.elastic.set_stiffness<kind>(tangent);
         const double G = c.elastic.shear, K = c.elastic.bulk, theta = 1.0 - end.loss;
-        const ConeSlopes by_q = cone_return.slopes(end, G * end.inverse_q, 0.0);
-        const ConeSlopes by_p = cone_return.slopes(end, 0.0, K);
+        if (!end.yields) {
+            if (c.thermal_expansion != 0.0)
+                for (int i = 0; i < 3; ++i) tangent.thermal_stress[i] = -3.0 * K * c.thermal_expansion;
+            return c.elastic.set_stiffness<kind>(tangent);
+        }
+        const auto [by_q, by_p] = cone_return.linearise(end);
         const double to_q = c.thermal.plastic_heat(by_q.heat, by_q.work);
         const double to_p = c.thermal.plastic_heat(by_p.heat, by_p.work);
         Column<n> direction{}, normal{};
@@ -176,6 +180,11 @@ class Kernel {
             store_column<n>(tangent.stiffness, j, unit + along * direction + on_normals * normal);
             course.heat_by_strain[j] = j < 3 ? to_q * s - to_p : to_q * s;
         }
+        if (c.thermal_expansion == 0.0) return;
+        // -alpha D 1, of which a deviator leaves nothing else.
+        const double shear = 3.0 * c.thermal_expansion * by_p.shape * end.inverse_q;
+        const double mean = 3.0 * c.thermal_expansion * by_p.p;
+        for (int i = 0; i < n; ++i) tangent.thermal_stress[i] = i < 3 ? shear * s_trial[i] - mean : shear * s_trial[i];
     }
 
     // One backward Euler step of plane stress.
@@ -236,6 +245,7 @@ class Kernel {
             course.heat_by_strain[j] = c.thermal.plastic_heat(d.heat, d.work);
             course.thickness_by_strain[j] = d.thickness - lateral * d.sum;
         }
+        set_thermal_stress(tangent);
     }
 
     // METHOD 2.
@@ -277,6 +287,7 @@ class Kernel {
             course.thickness_by_strain[j] = sensitive.thickness(j);
             course.stress[j] = sensitive.stress[j].value;
         }
+        set_thermal_stress(tangent);
         course.alpha = sensitive.alpha.value;
         course.cohesion.value = sensitive.cohesion.value.value;
         course.work = sensitive.work.value;
@@ -302,6 +313,13 @@ class Kernel {
         return strain;
     }
 
+    // DDSDDT: temperature acts as a strain.
+    template <AnalysisKind kind>
+    LODE_INLINE void set_thermal_stress(Tangent<kind>& tangent) const {
+        for (int j = 0; j < normal_components(kind); ++j)
+            for (int i = 0; i < components(kind); ++i) tangent.thermal_stress[i] -= c.thermal_expansion * tangent(i, j);
+    }
+
     // Page 25, section 4. Temperature acts through the thermal strain alone; `heat` is dPhi + H_is.
     template <AnalysisKind kind>
     LODE_INLINE void set_thermal_tangent(const Increment<kind, double>& increment, const State<double>& state,
@@ -313,7 +331,8 @@ class Kernel {
         if (feeds_host)
             for (int j = 0; j < components(kind); ++j) tangent.heat_rate_strain[j] = rate * course.heat_by_strain[j];
         if (alpha == 0.0) return;
-        set_thermal_strain_tangent(tangent, [alpha](int) { return alpha; });
+        for (int j = 0; j < normal_components(kind); ++j)
+            tangent.heat_rate_temperature -= alpha * tangent.heat_rate_strain[j];
         if (!(feeds_host && c.thermal.is_thermoelastic())) return;
         // H_is = -3K alpha T d eps_v, in plane stress with the thickness strain that the return finds.
         const double per_volume = -3.0 * c.elastic.bulk * alpha * rate;

@@ -27,10 +27,15 @@ struct ConeStep {
     }
 };
 
-// How the end of a step answers to the trial state: s_end = (1 - loss) s_trial + shape s_trial/q_trial, and the rest by
-// name; `heat` is that of the source rule.
+// How the end of a step answers to a change of the trial state: s_end = (1 - loss) s_trial + shape s_trial/q_trial, and
+// the rest by name; `heat` is that of the source rule.
 struct ConeSlopes {
     double shape, p, work, heat;
+};
+// By the strain: q_trial answers by G s_trial/q_trial, p_trial by -K 1. So the change by s_trial, and that by less
+// volume.
+struct ConeLinearisation {
+    ConeSlopes by_q, by_p;
 };
 
 template <class Law>
@@ -45,12 +50,12 @@ class ConeReturn {
           inverse_xi_(1.0 / cone.xi),
           eta_over_xi_(cone.eta / cone.xi),
           xi_over_eta_(cone.eta > 0.0 ? cone.xi / cone.eta : 0.0),
+          xi_over_G_(cone.xi / G),
           initial_cohesion_(initial_cohesion),
           unloading_((G + cone.eta * cone.eta_bar * K) / (cone.xi * cone.xi)),
-          inverse_unloading_(1.0 / unloading_),
           axis_unloading_(cone.eta * cone.eta_bar * K / (cone.xi * cone.xi)),
           on_cone_(law, unloading_),
-          on_axis_(law, axis_unloading_) {}
+          on_axis_(law, axis_unloading_ > 0.0 ? axis_unloading_ : unloading_) {}
 
     // Elastic unloading in units of c over alpha: softening must be less steep.
     double unloading() const { return unloading_; }
@@ -75,106 +80,122 @@ class ConeReturn {
         end.p = p_trial;
         if (!any(end.yields)) return end;
 
-        auto cone = on_cone_(driving, alpha, scale, c, end.yields, solves);
-        finish(cone.dalpha, cone.flow, driving, unloading_);
-        end.dalpha = select(end.yields, cone.dalpha, zero);
-        end.cohesion.value = select(end.yields, cone.flow.value, c.value);
-        end.cohesion.slope = select(end.yields, cone.flow.slope, c.slope);
-        end.lambda = inverse_xi_ * end.dalpha;
+        // On the cone dalpha = xi q_trial/G uses the deviator up: what the excess still asks for then lies beyond the
+        // apex.
+        if (cone_.eta > 0.0) {
+            const Real apex = xi_over_G_ * q_trial;
+            end.at_apex = end.yields && exceeds(excess - unloading_ * apex, alpha, scale, c, apex, end.yields);
+        }
+        const Real tension = -pressure;
+        const Mask<Real> flows = cone_.eta_bar > 0.0 ? end.yields : Mask<Real>(end.yields && !end.at_apex);
+        const ReturnResult<Real> flow = solve(driving, tension, alpha, scale, c, end.at_apex, flows, solves);
+        end.dalpha = select(flows, flow.dalpha, zero);
+        end.cohesion.value = select(flows, flow.flow.value, c.value);
+        end.cohesion.slope = select(flows, flow.flow.slope, c.slope);
+        end.lambda = inverse_xi_ * select(end.at_apex, zero, end.dalpha);
         end.inverse_q = 1.0 / select(end.yields && q_trial > zero, q_trial, Real(1.0));
-        const Real fall = G_ * end.lambda;
-        end.loss = fall * end.inverse_q;
-        if (cone_.eta == 0.0) end.loss = min(end.loss, Real(1.0));  // no apex: the cylinder may shrink to its axis
-        else end.at_apex = end.yields && q_trial < fall;
-        end.volume = cone_.eta_bar * end.lambda;
-        if (any(end.at_apex)) [[unlikely]]
-            return_to_apex(p_trial, alpha, scale, c, driving, end, solves);
+        end.loss = select(end.at_apex, Real(1.0), min(G_ * end.lambda * end.inverse_q, Real(1.0)));
+        end.volume = (cone_.eta_bar * inverse_xi_) * end.dalpha;
+        if (cone_.eta_bar == 0.0)
+            end.volume = select(end.at_apex, (inverse_K_ * xi_over_eta_) * (tension - c.value), end.volume);
         end.q = q_trial - end.loss * q_trial;
-        end.p = p_trial + K_ * end.volume;
-        if (any(end.at_apex)) end.p = select(end.at_apex, -xi_over_eta_ * end.cohesion.value, end.p);
+        end.p = select(end.at_apex, -xi_over_eta_ * end.cohesion.value, p_trial + K_ * end.volume);
         return end;
     }
 
-    // For changes dq and dp of the trial invariants.
-    LODE_INLINE ConeSlopes slopes(const ConeStep<double>& e, double dq, double dp) const {
-        if (!e.yields) return {0.0, dp, 0.0, 0.0};
-        const double slope = e.cohesion.slope;
-        double dlambda = 0.0, dq_end = 0.0, dvolume, hardening, p;
-        if (e.at_apex) {
-            dvolume = -apex_share(slope) * inverse_K_ * dp;
-            hardening = cone_.eta_bar > 0.0 ? cone_.xi / cone_.eta_bar * dvolume : 0.0;
-            p = -xi_over_eta_ * slope * hardening;
-        } else {
-            hardening = on_cone_.plastic_share(slope) * inverse_unloading_ * (inverse_xi_ * dq - eta_over_xi_ * dp);
-            dlambda = inverse_xi_ * hardening;
-            dvolume = cone_.eta_bar * dlambda;
-            dq_end = dq - G_ * dlambda;
-            p = dp + K_ * dvolume;
-        }
-        const double work = dlambda * e.q + e.lambda * dq_end - dvolume * e.p - e.volume * p;
+    // Of a step that yields.
+    LODE_INLINE ConeLinearisation linearise(const ConeStep<double>& e) const {
+        const double slope = e.cohesion.slope, compliance = (e.at_apex ? on_axis_ : on_cone_).compliance(slope);
+        // At the apex without dilatancy nothing hardens, and plastic volume strain takes all.
+        const bool is_free = e.at_apex && cone_.eta_bar == 0.0;
+        const double dq = e.at_apex ? 0.0 : G_ * e.inverse_q;
+        const double dalpha_q = compliance * inverse_xi_ * dq;
+        const double dalpha_p = is_free ? 0.0 : -compliance * eta_over_xi_ * K_;
+        const double dvolume_p = is_free ? -1.0 : cone_.eta_bar * inverse_xi_ * dalpha_p;
+        const double dlambda_q = inverse_xi_ * dalpha_q, dlambda_p = e.at_apex ? 0.0 : inverse_xi_ * dalpha_p;
+        const double dvolume_q = cone_.eta_bar * dlambda_q;
+        const double p_q = K_ * dvolume_q;
+        const double p_p = e.at_apex ? -xi_over_eta_ * slope * dalpha_p : K_ + K_ * dvolume_p;
+        const double q_q = dq - G_ * dlambda_q, q_p = -G_ * dlambda_p;
+        const double work_q = dlambda_q * e.q + e.lambda * q_q - dvolume_q * e.p - e.volume * p_q;
+        const double work_p = dlambda_p * e.q + e.lambda * q_p - dvolume_p * e.p - e.volume * p_p;
         const double stored = e.cohesion.value - initial_cohesion_ + e.dalpha * slope;
         const bool heats = e.heat(initial_cohesion_) > 0.0;
         // s_trial d(1 - loss) = (loss dq - G dlambda) s_trial/q_trial
-        return {e.at_apex ? 0.0 : e.loss * dq - G_ * dlambda, p, work, heats ? work - stored * hardening : 0.0};
+        return {{e.loss * dq - G_ * dlambda_q, p_q, work_q, heats ? work_q - stored * dalpha_q : 0.0},
+                {q_p, p_p, work_p, heats ? work_p - stored * dalpha_p : 0.0}};
     }
 
   private:
-    // What the iteration has left of driving = unloading dalpha + c, so that the answer does not depend on where it
-    // stopped.
+    static constexpr bool is_straight = std::is_same_v<Law, LinearHardening>;
+    using Line = ReturnToYield<Law>;
+    static constexpr bool may_meet_twice = Law::softens && !std::is_same_v<Law, LinearSoftening>;
+
+    // c(alpha + x) - c < left, in the lanes that yield.
     template <class Real>
-    LODE_INLINE static void finish(Real& dalpha, FlowStress<Real>& c, const Real& driving, double unloading) {
-        if constexpr (!std::is_same_v<Law, LinearHardening> && !std::is_same_v<Law, LinearSoftening>) {
-            const Real stiffness = unloading + c.slope, left = driving - unloading * dalpha - c.value;
-            const Real more = left / select(stiffness > Real(0.0), stiffness, Real(unloading));
-            dalpha = dalpha + more;
-            c.value = c.value + c.slope * more;
+    LODE_INLINE Mask<Real> exceeds(const Real& left, const Real& alpha, const Real& scale, const FlowStress<Real>& c,
+                                   const Real& x, const Mask<Real>& yields) const {
+        if constexpr (is_straight) {
+            return left > c.slope * x;
+        } else if constexpr (Law::softens) {
+            return left > ReturnToYield<Law>::at(law_, alpha + x, scale).value - c.value;
+        } else {
+            // Mostly two terms of the law at the start tell: it rises, and a concave one lies between its tangent and
+            // its parabola there.
+            const Real rise = c.slope * x, parabola = rise + 0.5 * c.curvature * (x * x);
+            const Mask<Real> positive = left > Real(0.0), above = left > rise, concave = c.curvature <= Real(0.0);
+            const Mask<Real> undecided = yields && positive && !(concave && (above || left <= parabola));
+            const Mask<Real> beyond = positive && above;
+            if (!any(undecided)) [[likely]]
+                return beyond;
+            const Mask<Real> beyond_curve = left > rise_of(alpha, x, c.value);
+            return (!undecided && beyond) || (undecided && beyond_curve);
         }
     }
-
-    // Step 4: s = 0 and the plastic volume strain x brings p to -(xi/eta) c(alpha + r x), r = xi/eta_bar. Without
-    // dilatancy nothing hardens there. `end` holds what the cone says.
     template <class Real>
-    LODE_INLINE void return_to_apex(const Real& p_trial, const Real& alpha, const Real& scale,
-                                    const FlowStress<Real>& c, const Real& driving, ConeStep<Real>& end,
-                                    const SolveCounter<Real>& solves) const {
-        const Mask<Real> apex = end.at_apex;
-        const Real zero(0.0), tension = -eta_over_xi_ * p_trial;
-        Real dalpha = zero, volume;
-        FlowStress<Real> cohesion = c;
-        if (cone_.eta_bar > 0.0) {
-            if constexpr (Law::softens) {
-                soften_at_apex(tension, alpha, scale, c, driving, end, apex, dalpha, cohesion, solves);
-            } else {
-                const auto axis = on_axis_(tension, alpha, scale, c, apex, solves);
-                dalpha = axis.dalpha;
-                cohesion = axis.flow;
+    [[gnu::noinline]] Real rise_of(Real alpha, Real x, Real c) const {
+        return law_.flow_stress(alpha + x).value - c;
+    }
+
+    // dalpha and c at the end: on the cone from driving - (G + eta eta_bar K)/xi^2 dalpha = c; at the apex (step 4),
+    // where s = 0, from tension - eta eta_bar K/xi^2 dalpha = c, which is p_trial + K x = -(xi/eta) c of the plastic
+    // volume strain x = (eta_bar/xi) dalpha. Without dilatancy nothing hardens there.
+    template <class Real>
+    LODE_INLINE ReturnResult<Real> solve(const Real& driving, const Real& tension, const Real& alpha, const Real& scale,
+                                         const FlowStress<Real>& c, const Mask<Real>& at_apex, const Mask<Real>& flows,
+                                         const SolveCounter<Real>& solves) const {
+        if constexpr (may_meet_twice) {
+            auto result = on_cone_(driving, alpha, scale, c, Mask<Real>(flows && !at_apex), solves);
+            on_cone_.finish(driving, result);
+            const Mask<Real> apex = flows && at_apex;
+            if (any(apex)) [[unlikely]] {
+                auto axis = soften_at_apex(driving, tension, alpha, scale, c, apex, solves);
+                on_axis_.finish(tension, axis);
+                result = either(apex, axis, result);
             }
-            finish(dalpha, cohesion, tension, axis_unloading_);
-            volume = (cone_.eta_bar * inverse_xi_) * dalpha;
+            return result;
         } else {
-            volume = (inverse_K_ * xi_over_eta_) * (tension - c.value);
+            const auto line = Line::template one_of<Real>(at_apex, on_axis_, on_cone_, c);
+            const Real target = select(at_apex, tension, driving);
+            auto result = line(target, alpha, scale, c, flows, solves);
+            if constexpr (Line::template stops_early<Real>) line.finish(target, result);
+            return result;
         }
-        end.volume = select(apex, volume, end.volume);
-        end.dalpha = select(apex, dalpha, end.dalpha);
-        end.lambda = select(apex, zero, end.lambda);
-        end.loss = select(apex, Real(1.0), end.loss);
-        end.cohesion.value = select(apex, cohesion.value, end.cohesion.value);
-        end.cohesion.slope = select(apex, cohesion.slope, end.cohesion.slope);
     }
 
     // Softening may be steeper than unloading along the axis: the smallest root. The floor of c keeps it finite. Where
-    // the trial state is not beyond the apex of the start, the cone's solution is the lower end.
+    // the trial state is not beyond the apex of the start, the lower end is where the cone's deviator is used up: c is
+    // too small there.
     template <class Real>
-    LODE_INLINE void soften_at_apex(const Real& tension, const Real& alpha, const Real& scale,
-                                    const FlowStress<Real>& c, const Real& driving, const ConeStep<Real>& end,
-                                    const Mask<Real>& apex, Real& dalpha, FlowStress<Real>& cohesion,
-                                    const SolveCounter<Real>& solves) const {
+    LODE_INLINE ReturnResult<Real> soften_at_apex(const Real& driving, const Real& tension, const Real& alpha,
+                                                  const Real& scale, const FlowStress<Real>& c, const Mask<Real>& apex,
+                                                  const SolveCounter<Real>& solves) const {
         const auto residual = [tension, alpha, scale, law = law_, stiffness = axis_unloading_](const Real& x) {
             const FlowStress<Real> k = ReturnToYield<Law>::at(law, alpha + x, scale);
             return Residual<Real>{tension - stiffness * x - k.value, -stiffness - k.slope};
         };
         const Real excess = tension - c.value, zero(0.0);
-        const Real lower = select(excess > zero, zero, end.dalpha);
+        const Real lower = select(excess > zero, zero, xi_over_G_ * (cone_.xi * (driving - tension)));
         const Real upper = max(select(apex, tension, Real(1.0)) * (1.0 / axis_unloading_), lower);
         const Real stiffness = axis_unloading_ + c.slope;
         const Mask<Real> forward = stiffness > zero && excess > zero;
@@ -182,22 +203,14 @@ class ConeReturn {
         const auto root = solve_bracketed<Slope::decreasing>(residual, lower, upper, start,
                                                              return_tolerance * max(abs(driving), abs(tension)), apex);
         solves.count(root);
-        dalpha = root.x;
-        cohesion = ReturnToYield<Law>::at(law_, alpha + root.x, scale);
-    }
-
-    // How much of a change of pressure plastic volume strain takes.
-    LODE_INLINE double apex_share(double slope) const {
-        if (cone_.eta_bar == 0.0) return 1.0;
-        const double stiffness = axis_unloading_ + slope;
-        return stiffness > 0.0 ? axis_unloading_ / stiffness : 1.0;
+        return {root.x, ReturnToYield<Law>::at(law_, alpha + root.x, scale)};
     }
 
     Law law_;
     Cone cone_;
-    double G_, K_, inverse_K_, inverse_xi_, eta_over_xi_, xi_over_eta_, initial_cohesion_;
-    double unloading_, inverse_unloading_, axis_unloading_;  // (G + eta eta_bar K)/xi^2, eta eta_bar K/xi^2
-    ReturnToYield<Law> on_cone_, on_axis_;
+    double G_, K_, inverse_K_, inverse_xi_, eta_over_xi_, xi_over_eta_, xi_over_G_, initial_cohesion_;
+    double unloading_, axis_unloading_;  // (G + eta eta_bar K)/xi^2, eta eta_bar K/xi^2
+    Line on_cone_, on_axis_;
 };
 
 }  // namespace lode::drucker_prager

@@ -37,16 +37,21 @@ struct DecayRemainder {
         const Real z2 = z * z;
         return z2 * first_terms(z, z2, z2 * z2);
     }
+    // Up to z = 1/2.
     template <class Real>
-    LODE_INLINE static Real of(const Real& z) {
-        const auto is_short = abs(z) < Real(0.5);
+    LODE_INLINE static Real series(const Real& z) {
         const Real z2 = z * z, z4 = z2 * z2;
         const Real p4 = 1.0 / 3628800 - z * (1.0 / 39916800), p5 = 1.0 / 479001600 - z * (1.0 / 6227020800);
         const double p6 = 1.0 / 87178291200;
-        const Real series = z2 * (first_terms(z, z2, z4) + (z4 * z4) * (p4 + z2 * p5 + z4 * p6));
+        return z2 * (first_terms(z, z2, z4) + (z4 * z4) * (p4 + z2 * p5 + z4 * p6));
+    }
+    template <class Real>
+    LODE_INLINE static Real of(const Real& z) {
+        const auto is_short = abs(z) < Real(0.5);
+        const Real near = series(z);
         if (all(is_short)) [[likely]]
-            return series;
-        return select(is_short, series, z + quick_expm1(-z));
+            return near;
+        return select(is_short, near, z + quick_expm1(-z));
     }
 
   private:

@@ -132,9 +132,14 @@ LODE_INLINE auto solve_in_logarithm(const F& residual, const Real& lower, const 
 
 // The scalar return of section 2.6 along a line on which q falls with `stiffness` (3G in 3D, E in 1D):
 // dalpha from q_trial - stiffness dalpha = k(scale (alpha + dalpha)); `scale` is 1 unless the law softens. A stiffness
-// that differs from point to point (finite strain) makes `Number` that of the point.
-template <class Law, class Number = double>
+// that differs from point to point (finite strain) makes `Number` that of the point. `Kept` is Law, or const Law& of a
+// line that was chosen from two for one call: there a law that saturates may do a good part of it in an increment.
+template <class Law, class Number = double, class Kept = Law>
 class ReturnToYield {
+    static constexpr bool is_straight = std::is_same_v<Law, LinearHardening>;
+    static constexpr bool saturates = std::is_same_v<Law, SaturationHardening>;
+    static constexpr bool is_one_of_two = !std::is_same_v<Law, Kept>;
+
   public:
     template <class Real>
     using Result = ReturnResult<Real>;
@@ -143,6 +148,24 @@ class ReturnToYield {
         : law_(law), stiffness_(stiffness), inverse_stiffness_(1.0 / stiffness) {
         if constexpr (is_straight) compliance_ = 1.0 / (stiffness + law.modulus);
         else if constexpr (saturates) compliance_ = 1.0 / (stiffness + law.modulus);
+    }
+    // Lane by lane the line `a` or `b` of one law, for one call; `flow` is that of the start.
+    template <class Real>
+    using OneOf = ReturnToYield<Law, Real, const Law&>;
+    template <class Real>
+    LODE_INLINE static OneOf<Real> one_of(const Mask<Real>& first, const ReturnToYield& a, const ReturnToYield& b,
+                                          const FlowStress<Real>& flow) {
+        const auto pick = [&first](double x, double y) LODE_INLINE_LAMBDA { return select(first, Real(x), Real(y)); };
+        OneOf<Real> line(a.law_, pick(a.stiffness_, b.stiffness_), pick(a.inverse_stiffness_, b.inverse_stiffness_));
+        if constexpr (is_straight) {
+            line.compliance_ = pick(a.compliance_, b.compliance_);
+        } else if constexpr (saturates) {
+            // Both with one division, which need not wait for the choice.
+            const Real of_a = a.stiffness_ + flow.slope, of_b = b.stiffness_ + flow.slope;
+            const Real inverse = 1.0 / (of_a * of_b);
+            line.compliance_ = select(first, inverse * of_b, inverse * of_a);
+        }
+        return line;
     }
 
     // The lanes of `yields`; `flow` is that of the start. The other lanes hold numbers without meaning.
@@ -155,11 +178,15 @@ class ReturnToYield {
             const Real dalpha = compliance_ * excess;
             return {dalpha, {flow.value + law_.modulus * dalpha, flow.slope, flow.curvature}};
         } else if constexpr (std::is_same_v<Law, LinearSoftening>) {
-            const Real sloped = excess / (stiffness_ + scale * law_.modulus);
+            const Real stiffness = stiffness_ + scale * law_.modulus, sloped = excess / stiffness;
             const Real flat = inverse_stiffness_ * (q_trial - law_.floor);
-            const auto on_slope = scale * alpha < Real(law_.floor_at) && scale * (alpha + sloped) < Real(law_.floor_at);
+            auto on_slope = scale * alpha < Real(law_.floor_at) && scale * (alpha + sloped) < Real(law_.floor_at);
+            // Along one of two lines softening may be steeper than unloading: both meet on the floor alone.
+            if constexpr (is_one_of_two) on_slope = on_slope && stiffness > Real(0.0);
             const Real dalpha = select(on_slope, sloped, flat);
             return {dalpha, at(law_, alpha + dalpha, scale)};
+        } else if constexpr (saturates && !is_differentiated<Real> && is_one_of_two) {
+            return by_long_decay(q_trial, alpha, flow, excess, yields, solves);
         } else if constexpr (saturates && !is_differentiated<Real>) {
             return by_decay(q_trial, alpha, flow, excess, yields, solves);
         } else if constexpr (std::is_same_v<Law, PowerHardening>) {
@@ -175,6 +202,25 @@ class ReturnToYield {
         else return stiffness_ / (stiffness_ + H);
     }
 
+    // d(dalpha)/d(q_trial) = 1/(stiffness + H).
+    LODE_INLINE double compliance(double H) const {
+        if constexpr (is_straight) return compliance_;
+        else return 1.0 / (stiffness_ + H);
+    }
+
+    // Whether the return ends where its iteration stopped. What that has left, `finish` takes away, so that the answer
+    // does not depend on it.
+    template <class Real>
+    static constexpr bool stops_early =
+        !is_straight && !std::is_same_v<Law, LinearSoftening> && (!saturates || is_differentiated<Real>);
+    template <class Real>
+    LODE_INLINE void finish(const Real& q_trial, Result<Real>& r) const {
+        const Real stiffness = stiffness_ + r.flow.slope, left = q_trial - stiffness_ * r.dalpha - r.flow.value;
+        const Real more = left / select(stiffness > Real(0.0), stiffness, Real(stiffness_));
+        r.dalpha = r.dalpha + more;
+        r.flow.value = r.flow.value + r.flow.slope * more;
+    }
+
     // k and dk/dalpha.
     template <class Real>
     LODE_INLINE static FlowStress<Real> at(const Law& law, const Real& alpha, const Real& scale) {
@@ -187,8 +233,11 @@ class ReturnToYield {
     }
 
   private:
-    static constexpr bool is_straight = std::is_same_v<Law, LinearHardening>;
-    static constexpr bool saturates = std::is_same_v<Law, SaturationHardening>;
+    template <class, class, class>
+    friend class ReturnToYield;
+
+    LODE_INLINE ReturnToYield(const Law& law, const Number& stiffness, const Number& inverse)
+        : law_(law), stiffness_(stiffness), inverse_stiffness_(inverse) {}
 
     // Everything by value: a reference would keep the point in memory.
     template <class Real>
@@ -224,7 +273,9 @@ class ReturnToYield {
         const Real bend = flow.slope - law_.modulus;
         const Real share = 1.0 / (1.0 + compliance_ * bend);
         const Real m = compliance_ * bend * share;
-        const Real L = (law_.rate * compliance_) * share * excess, L2 = L * L;
+        const Real L = (law_.rate * compliance_) * share * excess;
+        // DecaySeries, written out: GCC keeps more of it in registers.
+        const Real L2 = L * L;
         const Real a3 = m * (0.5 * m - 1.0 / 6.0), a4 = m * (1.0 / 24.0 - m * (5.0 / 12.0 - 0.625 * m));
         const Real z0 = L + L2 * (0.5 * m + L * (a3 + a4 * L));
         const Real inverse_slope = (1.0 + m * L) + L2 * (3.0 * a3 + (4.0 * a4) * L);
@@ -237,15 +288,83 @@ class ReturnToYield {
             solves.count(1);
             return {x, k};
         }
-        const Result<Real> other = in_bracket_of(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved), solves);
+        const Result<Real> other = by_exponentials(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved), solves);
         return either(solved, Result<Real>{x, k}, other);
     }
-    // Out of line and everything by value.
+    // z(L) of F(z) = 0 as a power series, to the fourth order.
     template <class Real>
-    [[gnu::noinline]] static Result<Real> in_bracket_of(ReturnToYield self, Real q_trial, Real alpha,
-                                                        FlowStress<Real> flow, Mask<Real> active,
-                                                        SolveCounter<Real> solves) {
-        return self.in_bracket(q_trial, alpha, Real(1.0), flow, q_trial - flow.value, active, solves);
+    struct DecaySeries {
+        Real a3, a4, L2;
+        LODE_INLINE DecaySeries(const Real& m, const Real& L)
+            : a3(m * (0.5 * m - 1.0 / 6.0)), a4(m * (1.0 / 24.0 - m * (5.0 / 12.0 - 0.625 * m))), L2(L * L) {}
+        LODE_INLINE Real sum(const Real& m, const Real& L) const { return L + L2 * (0.5 * m + L * (a3 + a4 * L)); }
+        // dz/dL
+        LODE_INLINE Real slope(const Real& m, const Real& L) const {
+            return (1.0 + m * L) + L2 * (3.0 * a3 + (4.0 * a4) * L);
+        }
+    };
+
+    // Steps up to L = 0.45, for m < 0.4. From z0 the rest d of the root solves the same equation, with r = m E/F'(z0)
+    // for m and n = -F/F'(z0) for L, E = exp(-z0). |n| < 7e-5: d = n + r n^2/2 leaves 3e-15 of z.
+    template <class Real>
+    LODE_INLINE Result<Real> by_long_decay(const Real& q_trial, const Real& alpha, const FlowStress<Real>& flow,
+                                           const Real& excess, const Mask<Real>& yields,
+                                           const SolveCounter<Real>& solves) const {
+        const Real bend = flow.slope - law_.modulus, m = compliance_ * bend, L = (law_.rate * compliance_) * excess;
+        const DecaySeries<Real> series(m, L);
+        const Real z0 = series.sum(m, L), slope = series.slope(m, L), m_slope = m * slope;  // slope 1/F', nearly
+        const Real phi = hardening_detail::DecayRemainder::series(z0), E = (1.0 - z0) + phi;
+        const Real h = ((1.0 - slope) + m_slope * z0) - m_slope * phi;  // 1 - slope F'(z0)
+        const Real w = (1.0 + h) * (1.0 + h * h);                       // 1/(1 - h)
+        const Real n = (m_slope * phi - slope * (z0 - L)) * w;
+        const Real d = n + (0.5 * m_slope * E) * (w * (n * n)), x = law_.inverse_rate * (z0 + d);
+        const Real bend_end = bend * (E * (1.0 - d * (1.0 - 0.5 * d)));
+        const FlowStress<Real> k{q_trial - stiffness_ * x, bend_end + law_.modulus, -law_.rate * bend_end};
+        const auto solved = L < Real(0.45) && m < Real(0.4) && alpha + x < Real(law_.straight_from);
+        if (all(solved || !yields)) [[likely]] {
+            solves.count(1);
+            return {x, k};
+        }
+        const Result<Real> other = by_exponentials(*this, q_trial, alpha, flow, Mask<Real>(yields && !solved), solves);
+        return either(solved, Result<Real>{x, k}, other);
+    }
+
+    // Any step: the same again until n is small, with the exponential itself: what |n| < 5e-4 leaves is below a fifth
+    // of n^5. The root lies in [L, L/(1 - m)]. Out of line and everything by value.
+    template <class Real>
+    [[gnu::noinline]] static Result<Real> by_exponentials(ReturnToYield self, Real q_trial, Real alpha,
+                                                          FlowStress<Real> flow, Mask<Real> active,
+                                                          SolveCounter<Real> solves) {
+        const SaturationHardening& law = self.law_;
+        const Real bend = select(active, flow.slope - law.modulus, Real(0.0));
+        const Real straight = self.stiffness_ + law.modulus, compliance = 1.0 / (straight + bend);
+        const Real share = compliance * straight, m = compliance * bend;
+        const Real lower = (law.rate * compliance) * select(active, q_trial - flow.value, Real(0.0));
+        const Real upper = lower / share;
+        Real z = max(min(DecaySeries<Real>(m, lower).sum(m, lower), upper), lower);
+        Real end, bend_end;
+        Mask<Real> near;
+        int iteration = 0;
+        do {
+            const Real decayed = quick_expm1(-z), m_E = m + m * decayed;
+            const Real inverse_slope = 1.0 / (share + m_E);
+            const Real n = inverse_slope * ((lower - share * z) + m * decayed), r = inverse_slope * m_E;
+            const Real d = DecaySeries<Real>(r, n).sum(r, n);
+            end = z + d;
+            bend_end = bend * ((1.0 + decayed) * (1.0 - d * (1.0 - d * (1.0 / 2 - d * (1.0 / 6)))));
+            near = abs(n) < Real(5e-4);
+            z = select(near, z, max(min(end, upper), lower));
+        } while (!all(near) && ++iteration < 8);
+        solves.count(iteration + 1);
+        const Real x = law.inverse_rate * end;
+        const auto solved = near && alpha + x < Real(law.straight_from);
+        const Result<Real> result{x, {q_trial - self.stiffness_ * x, bend_end + law.modulus, -law.rate * bend_end}};
+        const Mask<Real> others = active && !solved;
+        if (!any(others)) [[likely]]
+            return result;
+        Result<Real> other = self.in_bracket(q_trial, alpha, Real(1.0), flow, q_trial - flow.value, others, solves);
+        self.finish(q_trial, other);
+        return either(solved, result, other);
     }
 
     // For n < 1 the slope at alpha = 0 is infinite and a step from there long: such lanes are solved for the logarithm
@@ -271,9 +390,11 @@ class ReturnToYield {
         return either(steep, Result<Real>{root.last.dalpha, root.last.flow}, result);
     }
 
-    Law law_;
+    Kept law_;
     Number stiffness_, inverse_stiffness_;
-    Number compliance_ = Number(0.0);  // 1/(stiffness + H) of a straight law
+    // 1/(stiffness + H): H of a straight law, that of a law that saturates in the end or, in one of two lines, at the
+    // start.
+    Number compliance_ = Number(0.0);
 };
 
 }  // namespace lode
