@@ -26,7 +26,7 @@ struct Constants {
     bool expands_with_heat, expands_with_moisture;
     ThermalBlock thermal;
     bool has_axes;  // ROTMODE 1
-    MaterialAxes axes;
+    TurnedAxes axes;
     bool tilted;  // out of the plane of a 2D element
     double tilt;
     int substeps;
@@ -50,7 +50,7 @@ class Kernel {
             return point.refuse(Mask<Real>(true), "the material axes of a 2D element may turn by ANGZ only: ANGY, ANGX",
                                 Real(c.tilt), "0");
         MaterialFrame<kind, Real> frame;
-        if (c.has_axes) frame = MaterialFrame<kind, Real>::at_end(increment, state, hill_plastic::Q, c.axes);
+        if (c.has_axes) frame.set(increment, state, hill_plastic::Q, c.axes);
 
         Course<kind, Real> course;
         const Strain<kind, Real> total = frame.to_material(increment.strain_increment);
@@ -379,7 +379,7 @@ struct HillPlastic {
                           .expands_with_moisture = present(moisture),
                           .thermal = ThermalBlock(p, TABS, false),
                           .has_axes = has_axes,
-                          .axes = MaterialAxes::from_properties(p, ANGZ),
+                          .axes = TurnedAxes(MaterialAxes::from_properties(p, ANGZ)),
                           .tilted = tilted,
                           .tilt = p[ANGY] != 0.0 ? p[ANGY] : p[ANGX],
                           .substeps = p.code(METHOD) == 2 ? p.code(NSUB) : 1};

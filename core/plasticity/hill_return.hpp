@@ -50,33 +50,51 @@ class HillReturn {
         end.g = g;
         if (!any(end.yields)) return end;
 
-        // At x = h_trial/g - 1 times d_max/d_min every mode has come down to g at least.
-        const Real start = select(end.yields, excess / g.value, zero);
-        const Real upper = start * (1.0 / modes.smallest_ratio);
-        auto root = solve_bracketed<Slope::increasing>(problem, zero, upper, start, Real(return_tolerance), end.yields);
+        // At x = h_trial/g - 1 times d_max/d_min every mode has come down to g at least. Halley's step from x = 0,
+        // where the law is known, is the better start, unless the curvature there rules (a power law at alpha = 0).
+        const Real far = select(end.yields, excess / g.value, zero);
+        const Real upper = far * (1.0 / modes.smallest_ratio);
+        const auto first = problem.at_start(g);
+        const Real slope2 = first.slope * first.slope, bend = 0.5 * first.value * first.curvature;
+        const Mask<Real> mild = abs(bend) < 0.5 * slope2;
+        const Real start = select(mild, -first.value * first.slope / select(mild, slope2 - bend, one), far);
+        const Real tolerance = max(early * min(far, one), Real(return_tolerance));
+        auto root = solve_bracketed<Slope::increasing>(problem, zero, upper, start, tolerance, end.yields);
         solves.count(root);
         if (squared_) {
             const auto turned = end.yields && root.last.dalpha_slope < zero;
             if (any(turned)) [[unlikely]]
                 find_smallest(problem, root, turned, solves);
         }
-        // With what the iteration has left, so that the answer does not depend on where it stopped.
+        Real left = last_step(root.last);
+        const Mask<Real> unfinished = end.yields && abs(left) > 10.0 * max(early * root.x, Real(return_tolerance));
+        if (any(unfinished)) [[unlikely]] {
+            const auto more =
+                solve_bracketed<Slope::increasing>(problem, zero, upper, root.x, Real(return_tolerance), unfinished);
+            solves.count(more);
+            root.x = select(unfinished, more.x, root.x);
+            root.last = problem(root.x);
+            left = last_step(root.last);
+        }
+        // With what the iteration has left, which is so small that series to its square take everything along.
         const auto& last = root.last;
-        const Real left = select(end.yields, -last.value / last.slope, zero);
-        const Real x = root.x + left, t = 1.0 / (1.0 + x);
-        const auto inverse = problem.inverses(x * t, t);
+        left = select(end.yields, left, zero);
+        const Real x = root.x + left;
         for (int k = 0; k < modes.yielding; ++k) {
             const int i = modes.place(k);
-            const Real factor = modes.active[k] * (t * inverse[k]) + (1.0 - modes.active[k]);
+            const Real change = (modes.ratio[k] * left) * last.inverse[k];
+            const Real inverse = last.inverse[k] - last.inverse[k] * (change * (1.0 - change));
+            const Real factor = modes.active[k] * inverse + (1.0 - modes.active[k]);
             end.factor[k] = select(end.yields, factor, one);
             end.z[i] = end.factor[k] * y[i];
         }
-        const Real more = last.dalpha_slope * left;
+        const Real more = left * (last.dalpha_slope + 0.5 * left * last.dalpha_curvature);
         end.mu = select(end.yields, x * (1.0 / modes.largest_d), zero);
         end.dalpha = select(end.yields, last.dalpha + more, zero);
         end.equivalent = problem.equivalent(end.z);
-        end.g.value = select(end.yields, last.g.value + last.g.slope * more, g.value);
-        end.g.slope = select(end.yields, last.g.slope, g.slope);
+        const Real slope = last.g.slope + last.g.curvature * more;
+        end.g.value = select(end.yields, last.g.value + more * (0.5 * (last.g.slope + slope)), g.value);
+        end.g.slope = select(end.yields, slope, g.slope);
         end.heat = end.mu * end.g.value;
         end.work = end.heat * (1.0 + select(end.yields, stored_ratio(alpha, end.dalpha, g, end.g), zero));
         return end;
@@ -151,11 +169,20 @@ class HillReturn {
     }
 
   private:
-    template <class Real>
+    // The iteration stops where its residual is so small a part of x: the step that it leaves is of the third order.
+    static constexpr double early = 2e-8;
+
+    template <class Trial>
+    LODE_INLINE static auto last_step(const Trial& r) {
+        return -r.value * r.slope / (r.slope * r.slope - 0.5 * r.value * r.curvature);
+    }
+
+    template <AnalysisKind kind, class Real>
     struct Trial {
-        Real value, slope;  // of g/h - 1
-        Real dalpha, dalpha_slope;
+        Real value, slope, curvature;  // of g/h - 1
+        Real dalpha, dalpha_slope, dalpha_curvature;
         FlowStress<Real> g;
+        Vector<Real, HillModes<kind>::yielding> inverse;  // 1/(1 + mu d)
     };
 
     // The equation, by value: a reference would keep the point in memory.
@@ -197,12 +224,12 @@ class HillReturn {
             for (int k = 1; k < modes_count; ++k) sum = sum + part[k];
             return sum;
         }
-        // 1/b, b = t + (1 - t) d/d_max in (0, 1], so that z = t y/b: all with one division.
-        LODE_INLINE Modal inverses(const Real& rest, const Real& t) const {
+        // 1/(1 + mu d), all with one division.
+        LODE_INLINE Modal inverses(const Real& x) const {
             Modal b, before;
             Real product(1.0);
             for (int k = 0; k < modes_count; ++k) {
-                b[k] = t + rest * ratio[k];
+                b[k] = 1.0 + x * ratio[k];
                 before[k] = product;
                 product = product * b[k];
             }
@@ -220,40 +247,59 @@ class HillReturn {
             for (int s = 0; s < modes_count - 2; ++s) sum = sum + unit_rate[s] * (z[normals + s] * z[normals + s]);
             return sqrt(max(sum, Real(0.0)));
         }
-        LODE_INLINE Trial<Real> operator()(const Real& x) const {
-            const Real s = 1.0 + x, t = 1.0 / s, rest = x * t;
-            const Modal inverse = inverses(rest, t);
-            // h = t Q, Q^2 = sum part/b^2; b changes with x by -t^2 (1 - d/d_max).
-            Real Q_square(0.0), third(0.0);
+        LODE_INLINE Trial<kind, Real> operator()(const Real& x) const {
+            return at(x, inverses(x), [this](const Real& dalpha) { return law.flow_stress(alpha + dalpha); });
+        }
+        // At x = 0, given g there.
+        LODE_INLINE Trial<kind, Real> at_start(const FlowStress<Real>& g) const {
+            Modal ones;
+            for (int k = 0; k < modes_count; ++k) ones[k] = Real(1.0);
+            return at(Real(0.0), ones, [&g](const Real&) { return g; });
+        }
+        // With i = 1/(1 + x ratio), so that i' = -ratio i^2 and i + x i' = i^2: dalpha = c x h gives dalpha' = c sum
+        // part i^3/h without cancellation.
+        template <class F>
+        LODE_INLINE Trial<kind, Real> at(const Real& x, const Modal& i, const F& flow_stress) const {
+            Real h2(0.0), P3(0.0), S3(0.0), P4(0.0), S4(0.0);  // sum part i^n, sum part ratio i^3, ratio^2 i^4
             for (int k = 0; k < modes_count; ++k) {
-                const Real share = part[k] * (inverse[k] * inverse[k]);
-                Q_square = Q_square + share;
-                third = third + (1.0 - ratio[k]) * (share * inverse[k]);
+                const Real q2 = part[k] * (i[k] * i[k]), q3 = q2 * i[k], q4 = ratio[k] * (q3 * i[k]);
+                h2 = h2 + q2, P3 = P3 + q3, S3 = S3 + ratio[k] * q3, P4 = P4 + q4, S4 = S4 + ratio[k] * q4;
             }
-            const Real Q = sqrt(Q_square), inverse_Q = 1.0 / Q, t_square = t * t;
-            const Real Q_slope = t_square * (third * inverse_Q);
-            // dalpha = (1 - t) m
-            Real m = inverse_d * inverse_reference * Q, m_slope = inverse_d * inverse_reference * Q_slope;
+            const Real h = sqrt(h2), v = h * (1.0 / h2), v2 = v * v;
+            // 1/h: v' = S3 v^3
+            const Real v_slope = S3 * (v2 * v), v_curvature = (3.0 * (v2 * v)) * (S3 * S3 * v2 - S4);
+            // dalpha = x m, (x m)' and (x m)''
+            Real m = h, m_slope = P3 * v, m_curvature = P3 * v_slope - (3.0 * P4) * v;
+            double per_m = inverse_d * inverse_reference;
             if (squared) {
-                const Real u0 = y[0] * inverse[0], u1 = y[1] * inverse[1];
+                const Real u0 = y[0] * i[0], u1 = y[1] * i[1], w0 = u0 * i[0], w1 = u1 * i[1];
                 const Real r0 = rate_00 * u0 + rate_01 * u1, r1 = rate_01 * u0 + rate_11 * u1;
-                Real square = u0 * r0 + u1 * r1;
-                Real change = (1.0 - ratio[0]) * (r0 * u0 * inverse[0]) + (1.0 - ratio[1]) * (r1 * u1 * inverse[1]);
-                for (int k = 0; k < modes_count - 2; ++k) {
-                    const Real share = shear_rate[k] * (inverse[k + 2] * inverse[k + 2]);
-                    square = square + share;
-                    change = change + (1.0 - ratio[k + 2]) * (share * inverse[k + 2]);
+                const Real t0 = ratio[0] * w0, t1 = ratio[1] * w1;
+                // E^2 = u.R u, with u' = -t, w' = -2 t i, u + x u' = w
+                Real E2 = u0 * r0 + u1 * r1, uw = w0 * r0 + w1 * r1, ut = t0 * r0 + t1 * r1;
+                Real tw = t0 * (rate_00 * w0 + rate_01 * w1) + t1 * (rate_01 * w0 + rate_11 * w1) +
+                          2.0 * (r0 * (t0 * i[0]) + r1 * (t1 * i[1]));
+                for (int k = 2; k < modes_count; ++k) {
+                    const Real q2 = shear_rate[k - 2] * (i[k] * i[k]), q3 = q2 * i[k], q3_ratio = ratio[k] * q3;
+                    E2 = E2 + q2, uw = uw + q3, ut = ut + q3_ratio, tw = tw + (3.0 * i[k]) * q3_ratio;
                 }
-                const Real root = sqrt(max(square, Real(1e-300)));
-                m = inverse_d * root;
-                m_slope = inverse_d * t_square * (change / root);
+                m = sqrt(max(E2, Real(1e-300)));
+                const Real inverse = 1.0 / m;
+                m_slope = uw * inverse;
+                m_curvature = inverse * (inverse * (m_slope * ut) - tw);
+                per_m = inverse_d;
             }
-            const Real dalpha = rest * m, dalpha_slope = t_square * m + rest * m_slope;
-            const FlowStress<Real> g = law.flow_stress(alpha + dalpha);
-            const Real ratio_s = s * inverse_Q;
-            return {g.value * ratio_s - 1.0,
-                    ratio_s * (g.slope * dalpha_slope - g.value * (Q_slope * inverse_Q)) + g.value * inverse_Q, dalpha,
-                    dalpha_slope, g};
+            const Real dalpha = (per_m * x) * m, slope = per_m * m_slope, curvature = per_m * m_curvature;
+            const FlowStress<Real> g = flow_stress(dalpha);
+            const Real g_slope = g.slope * slope, g_curvature = g.curvature * (slope * slope) + g.slope * curvature;
+            return {g.value * v - 1.0,
+                    g_slope * v + g.value * v_slope,
+                    g_curvature * v + (2.0 * g_slope * v_slope + g.value * v_curvature),
+                    dalpha,
+                    slope,
+                    curvature,
+                    g,
+                    i};
         }
     };
 
