@@ -17,6 +17,7 @@ struct ConeStep {
     Real volume;              // plastic volume strain: eta_bar lambda; at the apex its own unknown
     Real dalpha;
     FlowStress<Real> cohesion;  // c and dc/dalpha
+    Real compliance;            // d(dalpha) by the driving force, on the cone or at the apex
     Real q, p;
 
     // sigma : dep
@@ -76,6 +77,7 @@ class ConeReturn {
         end.inverse_q = zero;
         end.loss = end.lambda = end.volume = end.dalpha = zero;
         end.cohesion = c;
+        end.compliance = zero;
         end.q = q_trial;
         end.p = p_trial;
         if (!any(end.yields)) return end;
@@ -88,7 +90,8 @@ class ConeReturn {
         }
         const Real tension = -pressure;
         const Mask<Real> flows = cone_.eta_bar > 0.0 ? end.yields : Mask<Real>(end.yields && !end.at_apex);
-        const ReturnResult<Real> flow = solve(driving, tension, alpha, scale, c, end.at_apex, flows, solves);
+        const ReturnResult<Real> flow =
+            solve(driving, tension, alpha, scale, c, end.at_apex, flows, end.compliance, solves);
         end.dalpha = select(flows, flow.dalpha, zero);
         end.cohesion.value = select(flows, flow.flow.value, c.value);
         end.cohesion.slope = select(flows, flow.flow.slope, c.slope);
@@ -105,7 +108,7 @@ class ConeReturn {
 
     // Of a step that yields.
     LODE_INLINE ConeLinearisation linearise(const ConeStep<double>& e) const {
-        const double slope = e.cohesion.slope, compliance = (e.at_apex ? on_axis_ : on_cone_).compliance(slope);
+        const double slope = e.cohesion.slope, compliance = e.compliance;
         // At the apex without dilatancy nothing hardens, and plastic volume strain takes all.
         const bool is_free = e.at_apex && cone_.eta_bar == 0.0;
         const double dq = e.at_apex ? 0.0 : G_ * e.inverse_q;
@@ -163,7 +166,7 @@ class ConeReturn {
     template <class Real>
     LODE_INLINE ReturnResult<Real> solve(const Real& driving, const Real& tension, const Real& alpha, const Real& scale,
                                          const FlowStress<Real>& c, const Mask<Real>& at_apex, const Mask<Real>& flows,
-                                         const SolveCounter<Real>& solves) const {
+                                         Real& compliance, const SolveCounter<Real>& solves) const {
         if constexpr (may_meet_twice) {
             auto result = on_cone_(driving, alpha, scale, c, Mask<Real>(flows && !at_apex), solves);
             on_cone_.finish(driving, result);
@@ -173,12 +176,14 @@ class ConeReturn {
                 on_axis_.finish(tension, axis);
                 result = either(apex, axis, result);
             }
+            compliance = 1.0 / (select(apex, Real(axis_unloading_), Real(unloading_)) + result.flow.slope);
             return result;
         } else {
-            const auto line = Line::template one_of<Real>(at_apex, on_axis_, on_cone_, c);
+            const auto line = Line::template one_of<Real>(at_apex, on_axis_, on_cone_, c, scale);
             const Real target = select(at_apex, tension, driving);
             auto result = line(target, alpha, scale, c, flows, solves);
             if constexpr (Line::template stops_early<Real>) line.finish(target, result);
+            compliance = line.compliance(result.flow.slope);
             return result;
         }
     }

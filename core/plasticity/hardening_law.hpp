@@ -138,6 +138,7 @@ template <class Law, class Number = double, class Kept = Law>
 class ReturnToYield {
     static constexpr bool is_straight = std::is_same_v<Law, LinearHardening>;
     static constexpr bool saturates = std::is_same_v<Law, SaturationHardening>;
+    static constexpr bool falls_straight = std::is_same_v<Law, LinearSoftening>;
     static constexpr bool is_one_of_two = !std::is_same_v<Law, Kept>;
 
   public:
@@ -154,11 +155,13 @@ class ReturnToYield {
     using OneOf = ReturnToYield<Law, Real, const Law&>;
     template <class Real>
     LODE_INLINE static OneOf<Real> one_of(const Mask<Real>& first, const ReturnToYield& a, const ReturnToYield& b,
-                                          const FlowStress<Real>& flow) {
+                                          const FlowStress<Real>& flow, const Real& scale) {
         const auto pick = [&first](double x, double y) LODE_INLINE_LAMBDA { return select(first, Real(x), Real(y)); };
         OneOf<Real> line(a.law_, pick(a.stiffness_, b.stiffness_), pick(a.inverse_stiffness_, b.inverse_stiffness_));
         if constexpr (is_straight) {
             line.compliance_ = pick(a.compliance_, b.compliance_);
+        } else if constexpr (falls_straight) {
+            line.compliance_ = 1.0 / (line.stiffness_ + scale * a.law_.modulus);
         } else if constexpr (saturates) {
             // Both with one division, which need not wait for the choice.
             const Real of_a = a.stiffness_ + flow.slope, of_b = b.stiffness_ + flow.slope;
@@ -174,20 +177,24 @@ class ReturnToYield {
                                         const FlowStress<Real>& flow, const Mask<Real>& yields,
                                         const SolveCounter<Real>& solves = {}) const {
         const Real excess = q_trial - flow.value;
-        if constexpr (is_straight) {
+        if constexpr (is_differentiated<Real> && !is_straight && !falls_straight) {
+            return with_derivatives(q_trial, alpha, scale, flow, yields, solves);
+        } else if constexpr (is_straight) {
             const Real dalpha = compliance_ * excess;
             return {dalpha, {flow.value + law_.modulus * dalpha, flow.slope, flow.curvature}};
-        } else if constexpr (std::is_same_v<Law, LinearSoftening>) {
-            const Real stiffness = stiffness_ + scale * law_.modulus, sloped = excess / stiffness;
+        } else if constexpr (falls_straight) {
+            Real sloped;
+            if constexpr (is_one_of_two) sloped = compliance_ * excess;
+            else sloped = excess / (stiffness_ + scale * law_.modulus);
             const Real flat = inverse_stiffness_ * (q_trial - law_.floor);
             auto on_slope = scale * alpha < Real(law_.floor_at) && scale * (alpha + sloped) < Real(law_.floor_at);
             // Along one of two lines softening may be steeper than unloading: both meet on the floor alone.
-            if constexpr (is_one_of_two) on_slope = on_slope && stiffness > Real(0.0);
+            if constexpr (is_one_of_two) on_slope = on_slope && compliance_ > Real(0.0);
             const Real dalpha = select(on_slope, sloped, flat);
             return {dalpha, at(law_, alpha + dalpha, scale)};
-        } else if constexpr (saturates && !is_differentiated<Real> && is_one_of_two) {
+        } else if constexpr (saturates && is_one_of_two) {
             return by_long_decay(q_trial, alpha, flow, excess, yields, solves);
-        } else if constexpr (saturates && !is_differentiated<Real>) {
+        } else if constexpr (saturates) {
             return by_decay(q_trial, alpha, flow, excess, yields, solves);
         } else if constexpr (std::is_same_v<Law, PowerHardening>) {
             return near_infinite_slope(q_trial, alpha, flow, excess, yields, solves);
@@ -202,17 +209,19 @@ class ReturnToYield {
         else return stiffness_ / (stiffness_ + H);
     }
 
-    // d(dalpha)/d(q_trial) = 1/(stiffness + H).
-    LODE_INLINE double compliance(double H) const {
-        if constexpr (is_straight) return compliance_;
+    // d(dalpha)/d(q_trial) = 1/(stiffness + H), H the slope at the end.
+    template <class Real>
+    LODE_INLINE Real compliance(const Real& H) const {
+        if constexpr (is_straight) return Real(compliance_);
+        else if constexpr (falls_straight && is_one_of_two)
+            return select(H < Real(0.0), Real(compliance_), Real(inverse_stiffness_));
         else return 1.0 / (stiffness_ + H);
     }
 
     // Whether the return ends where its iteration stopped. What that has left, `finish` takes away, so that the answer
     // does not depend on it.
     template <class Real>
-    static constexpr bool stops_early =
-        !is_straight && !std::is_same_v<Law, LinearSoftening> && (!saturates || is_differentiated<Real>);
+    static constexpr bool stops_early = !is_straight && !falls_straight && (!saturates || is_differentiated<Real>);
     template <class Real>
     LODE_INLINE void finish(const Real& q_trial, Result<Real>& r) const {
         const Real stiffness = stiffness_ + r.flow.slope, left = q_trial - stiffness_ * r.dalpha - r.flow.value;
@@ -238,6 +247,22 @@ class ReturnToYield {
 
     LODE_INLINE ReturnToYield(const Law& law, const Number& stiffness, const Number& inverse)
         : law_(law), stiffness_(stiffness), inverse_stiffness_(inverse) {}
+
+    // Numbers that carry derivatives: solved for the value, then by the implicit function theorem.
+    template <class Real>
+    LODE_INLINE Result<Real> with_derivatives(const Real& q_trial, const Real& alpha, const Real& scale,
+                                              const FlowStress<Real>& flow, bool yields,
+                                              const SolveCounter<Real>& solves) const {
+        ReturnToYield<Law, double, Kept> line(law_, value_of(stiffness_), value_of(inverse_stiffness_));
+        line.compliance_ = value_of(compliance_);
+        const FlowStress<double> start{value_of(flow.value), value_of(flow.slope), value_of(flow.curvature)};
+        const Result<double> end =
+            line(value_of(q_trial), value_of(alpha), value_of(scale), start, yields, SolveCounter<double>(solves));
+        const FlowStress<Real> k = at(law_, alpha + end.dalpha, scale);
+        const Real left = q_trial - stiffness_ * end.dalpha - k.value;
+        const Real change = (1.0 / (value_of(stiffness_) + value_of(k.slope))) * (left - value_of(left));
+        return {end.dalpha + change, {k.value + k.slope * change, k.slope + k.curvature * change, k.curvature}};
+    }
 
     // Everything by value: a reference would keep the point in memory.
     template <class Real>
@@ -393,7 +418,7 @@ class ReturnToYield {
     Kept law_;
     Number stiffness_, inverse_stiffness_;
     // 1/(stiffness + H): H of a straight law, that of a law that saturates in the end or, in one of two lines, at the
-    // start.
+    // start; of a falling one in one of two lines that above the floor.
     Number compliance_ = Number(0.0);
 };
 

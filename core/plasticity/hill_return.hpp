@@ -59,7 +59,7 @@ class HillReturn {
         const Mask<Real> mild = abs(bend) < 0.5 * slope2;
         const Real start = select(mild, -first.value * first.slope / select(mild, slope2 - bend, one), far);
         const Real tolerance = max(early * min(far, one), Real(return_tolerance));
-        auto root = solve_bracketed<Slope::increasing>(problem, zero, upper, start, tolerance, end.yields);
+        auto root = solve(problem, modes, y, upper, start, tolerance, end.yields);
         solves.count(root);
         if (squared_) {
             const auto turned = end.yields && root.last.dalpha_slope < zero;
@@ -171,6 +171,30 @@ class HillReturn {
   private:
     // The iteration stops where its residual is so small a part of x: the step that it leaves is of the third order.
     static constexpr double early = 2e-8;
+
+    template <AnalysisKind kind, class Real>
+    struct Trial;
+    template <AnalysisKind kind, class Real>
+    struct Problem;
+
+    // Numbers that carry derivatives are solved for their value; the last step brings the derivatives.
+    template <AnalysisKind kind, class Real>
+    LODE_INLINE auto solve(const Problem<kind, Real>& problem, const HillModes<kind>& modes,
+                           const Stress<kind, Real>& y, const Real& upper, const Real& start, const Real& tolerance,
+                           const Mask<Real>& yields) const {
+        if constexpr (is_differentiated<Real>) {
+            Stress<kind, double> values;
+            for (int i = 0; i < components(kind); ++i) values[i] = value_of(y[i]);
+            const Problem<kind, double> plain(modes, values, value_of(problem.alpha), law_, inverse_reference_,
+                                              squared_);
+            const auto root = solve_bracketed<Slope::increasing>(plain, 0.0, value_of(upper), value_of(start),
+                                                                 value_of(tolerance), yields);
+            const Real x(root.x);
+            return Root<Real, Trial<kind, Real>>{x, root.converged, root.iterations, problem(x), root.safeguards};
+        } else {
+            return solve_bracketed<Slope::increasing>(problem, Real(0.0), upper, start, tolerance, yields);
+        }
+    }
 
     template <class Trial>
     LODE_INLINE static auto last_step(const Trial& r) {

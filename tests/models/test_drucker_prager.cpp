@@ -309,10 +309,43 @@ TEST(DruckerPrager, StressesLieOnTheConeOrInside) {
                 }
 }
 
+// Whatever part of its saturation a step takes, the cohesion at its end is that of the law: to the tolerance of the
+// scalar return, 1e-13 of the trial force on its line (page 20, section 1).
+TEST(DruckerPrager, CohesionSaturatesInAnyStep) {
+    std::mt19937_64 random(8);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    const double c0 = 2.0, range = 3.0, linear = 10.0, G = 400.0, K = 2000.0 / 3.0, eta = 0.4, xi = 1.1;
+    int on_cone = 0, at_apex = 0;
+    for (const double rate : {3.0, 100.0, 3000.0})
+        for (const double eta_bar : {0.002, 0.05, 0.4})
+            for (const double straight_from : {0.0, 0.01}) {
+                UmatPoint point =
+                    make_point(solid, {1000.0, 0.25, 0, eta, eta_bar, c0, xi, 8, range, rate, linear, straight_from});
+                for (int i = 0; i < 300; ++i) {
+                    const double before = point.state(EQPS), size = std::pow(10.0, -3.0 + 2.5 * u(random));
+                    Numbers strain(6);
+                    for (double& e : strain) e = size * u(random);
+                    point.advance({.dstran = strain});
+                    if (point.state(REGION) == 0.0) continue;
+                    const double alpha = point.state(EQPS);
+                    const double bent = straight_from > 0.0 ? std::min(alpha, straight_from) : alpha;
+                    const double slope = range * rate * std::exp(-rate * bent) + linear;
+                    const double cohesion =
+                        c0 - range * std::expm1(-rate * bent) + linear * bent + slope * (alpha - bent);
+                    const double trial = cohesion + (G + eta * eta_bar * K) / (xi * xi) * (alpha - before);
+                    ASSERT_NEAR(point.state(COHC), cohesion, 1e-13 * trial) << rate << " " << eta_bar << " " << size;
+                    ++(point.state(REGION) == 1.0 ? on_cone : at_apex);
+                }
+            }
+    EXPECT_GT(on_cone, 1000);
+    EXPECT_GT(at_apex, 50);
+}
+
 // Either side of the line at which the cone's return meets the apex: stress is continuous, and the tangent is that of
 // the side, checked by one-sided differences.
 TEST(DruckerPrager, TangentBesideTheApex) {
-    for (const Numbers& props : {direct, hardening}) {
+    const Numbers saturating = {1000.0, 0.25, 0, 0.4, 0.2, 2.0, 1.1, 8, 3.0, 3.0};
+    for (const Numbers& props : {direct, hardening, saturating}) {
         // q_trial = G lambda: with de = v/3 1 + gamma12, bisect in gamma.
         const double v = 0.03;
         const auto strain = [v](double gamma) { return Numbers{v / 3, v / 3, v / 3, gamma, 0, 0}; };
