@@ -165,7 +165,7 @@ struct IsoSoftening {
                                                    const SofteningDirection<Real>& shear) const {
         const double K = pressure_stiffness<kind>();
         const Real largest = sqrt((0.98 * crack.shear_law.eta() * elastic.shear) * shear.energy());
-        return {pressure, step.size.strength, Real((-1.0 / 3.0) * trace(step.trial) - K * opening_old), K, largest};
+        return {&pressure, step.size.strength, Real((-1.0 / 3.0) * trace(step.trial) - K * opening_old), K, largest};
     }
 
     template <AnalysisKind kind, class Real>

@@ -66,7 +66,8 @@ class SofteningCrack : public LinkedSoftening {
             g.end[j] = j == 0 ? positive_part(q_end[0]) : q_end[j];
             g.enabled[j] = active && direction[j].enabled;
             g.d_old[j] = g.d[j] = crack.damage[j];
-            set_threshold(direction[j], crack.delta[j], j, g);
+            if (isotropic && j == 2 && shares_shears()) copy_threshold(g);
+            else set_threshold(direction[j], Real(crack.delta[j] * direction[j].inverse_length), j, g);
         }
         [[maybe_unused]] ShearStrength<Real> tau{};
 
@@ -74,23 +75,15 @@ class SofteningCrack : public LinkedSoftening {
         if (single_group) {
             if constexpr (has_pressure<Pressure> && m > 1) tau = grow_under_pressure(direction, pressure, g);
             else if constexpr (m > 1) grow_group<0, m>(direction, g);
+        } else if (isotropic && m > 1 && is_coupled() && !is_linear()) {
+            if constexpr (isotropic && m > 1 && !has_pressure<Pressure>) grow_coupled(direction, g);
         } else {
             grow_alone(0, direction, g);
             if constexpr (has_pressure<Pressure> && m > 1) {
                 tau = pressure.strength(g.d[0] * g.end[0]);
                 set_shear_strength(tau.value, direction, g);
             }
-            if constexpr (m == 2) grow_alone(1, direction, g);
-            if constexpr (m == 3) {
-                if (links_shears()) {
-                    grow_group<1, 2>(direction, g);
-                } else if (isotropic && is_coupled()) {
-                    grow_larger(direction, g);
-                } else {
-                    grow_alone(1, direction, g);
-                    grow_alone(2, direction, g);
-                }
-            }
+            grow_shears(direction, g);
             if (is_coupled()) couple(direction, g);
         }
         Mask<Real> grows = g.grows[0], fails = g.fails[0];
@@ -191,38 +184,47 @@ class SofteningCrack : public LinkedSoftening {
     bool is_coupled() const {
         return surface_ == TractionSurface::coupled_cuboid || surface_ == TractionSurface::coupled_cylinder;
     }
-    bool links_all_shears() const { return links_shears() || surface_ == TractionSurface::ovoid; }
     bool links_shears() const {
         return surface_ == TractionSurface::cylinder || surface_ == TractionSurface::coupled_cylinder;
     }
+    bool shares_shears() const { return surface_ != TractionSurface::cuboid; }
 
     // The increment of damage in the making.
     template <int m, class Real>
     struct Growth {
-        Vector<Real, m> start, end;           // effective strains, the normal one without its negative part
-        Vector<Real, m> d_old, u_old, e_old;  // on the surface at the start
+        Vector<Real, m> start, end;               // effective strains, the normal one without its negative part
+        Vector<Real, m> d_old, u_old, per_e_old;  // on the surface at the start; 1/e
         Vector<Real, m> d;
         Vector<Softened<Real>, m> at;                 // of the laws at the end, or at d_f if they fail
         Vector<Mask<Real>, m> enabled, grows, fails;  // `grows` includes `fails`
         Vector<Mask<Real>, m> sets;                   // SURF 3, 4: whose group sets the common damage
         [[no_unique_address]] SolveCounter<Real> solves;
 
-        // e at the end.
-        LODE_INLINE Real e(int j, const SofteningDirection<Real>& direction) const {
-            return direction.length * at[j].strain(direction.brittleness);
+        // 1/e at the end.
+        LODE_INLINE Real per_e(int j, const SofteningDirection<Real>& direction) const {
+            return direction.inverse_length / at[j].strain(direction.brittleness);
         }
     };
 
-    // u and e of the surface reached so far: e = delta/d, and eps0 without damage.
+    // u and 1/e of the surface reached so far: e = delta/d, and eps0 without damage.
     template <int m, class Real>
-    LODE_INLINE static void set_threshold(const SofteningDirection<Real>& direction, const Real& delta, int j,
+    LODE_INLINE static void set_threshold(const SofteningDirection<Real>& direction, const Real& u, int j,
                                           Growth<m, Real>& g) {
-        const Real zero(0.0);
-        const Mask<Real> damaged = g.d_old[j] > zero && delta > zero;
-        g.u_old[j] = delta / direction.length;
-        g.e_old[j] = select(damaged, delta / select(damaged, g.d_old[j], Real(1.0)), direction.onset_strain());
+        const Real zero(0.0), one(1.0);
+        const Mask<Real> damaged = g.d_old[j] > zero && u > zero;
+        g.u_old[j] = u;
+        g.per_e_old[j] =
+            direction.inverse_length * (select(damaged, g.d_old[j], one) / select(damaged, u, direction.brittleness));
         g.grows[j] = g.fails[j] = g.sets[j] = Mask<Real>(false);
-        g.at[j] = {g.u_old[j], zero, zero};
+        g.at[j] = {u, zero, zero};
+    }
+    // Both shears of an isotropic crack have one law at the same damage.
+    template <int m, class Real>
+    LODE_INLINE static void copy_threshold(Growth<m, Real>& g) {
+        g.u_old[2] = g.u_old[1];
+        g.per_e_old[2] = g.per_e_old[1];
+        g.grows[2] = g.fails[2] = g.sets[2] = g.grows[1];
+        g.at[2] = g.at[1];
     }
 
     // The shear laws at another pressure: d stays, delta follows.
@@ -240,7 +242,7 @@ class SofteningCrack : public LinkedSoftening {
                                  .u;
             const Real u = select(g.d_old[j] > Real(0.0), g.u_old[j], Real(0.0));
             g.u_old[j] = u;
-            set_threshold(dir, u * dir.length, j, g);
+            set_threshold(dir, u, j, g);
         }
     }
 
@@ -249,10 +251,10 @@ class SofteningCrack : public LinkedSoftening {
     LODE_INLINE void grow_direction(int j, const Real& eps, const SofteningDirection<Real>& direction,
                                     Growth<m, Real>& g) const {
         const SofteningLaw& softening = law(j);
-        const Mask<Real> grows = g.enabled[j] && eps > (1.0 + softening_growth_tolerance) * g.e_old[j];
+        const Mask<Real> grows = g.enabled[j] && eps * g.per_e_old[j] > Real(1.0 + softening_growth_tolerance);
         g.grows[j] = grows;
         if (!any(grows)) return;
-        const Real x = eps / direction.length, r = direction.brittleness;
+        const Real x = eps * direction.inverse_length, r = direction.brittleness;
         const Mask<Real> fails = grows && x >= softening.end_strain(r);
         g.fails[j] = fails;
         Softened<Real> s = softening.at_strain(x, r, g.u_old[j], grows && !fails, g.solves);
@@ -264,6 +266,93 @@ class SofteningCrack : public LinkedSoftening {
     template <int m, class Real>
     LODE_INLINE void grow_alone(int j, const Vector<SofteningDirection<Real>, m>& direction, Growth<m, Real>& g) const {
         grow_direction(j, Real(abs(g.end[j])), direction[j], g);
+    }
+
+    template <int m, class Real>
+    LODE_INLINE void grow_shears(const Vector<SofteningDirection<Real>, m>& direction, Growth<m, Real>& g) const {
+        if constexpr (m == 2) grow_alone(1, direction, g);
+        if constexpr (m == 3) {
+            if (links_shears()) {
+                grow_group<1, 2>(direction, g);
+            } else if (isotropic && is_coupled()) {
+                grow_larger(direction, g);
+            } else {
+                grow_alone(1, direction, g);
+                grow_alone(2, direction, g);
+            }
+        }
+    }
+
+    // SURF 3, 4 of an isotropic crack: the largest q/e of the normal direction and the shears is 1.
+    template <int m, class Real>
+    LODE_INLINE void grow_coupled(const Vector<SofteningDirection<Real>, m>& direction, Growth<m, Real>& g) const {
+        const Real limit(1.0 + softening_growth_tolerance), y = abs(g.end[1]);
+        Real z = Real(0.0), shear = y;
+        if constexpr (m == 3) {
+            z = abs(g.end[2]);
+            shear = links_shears() ? sqrt(y * y + z * z) : max(y, z);
+        }
+        const Mask<Real> opens = g.enabled[0] && g.end[0] * g.per_e_old[0] > limit;
+        const Mask<Real> slides = g.enabled[0] && shear * g.per_e_old[1] > limit;
+        const Mask<Real> grows = opens || slides;
+        if (!any(grows)) return;
+
+        Linked<2, Real> l;
+        l.x = {g.end[0] * direction[0].inverse_length, shear * direction[1].inverse_length};
+        l.brittleness = {direction[0].brittleness, direction[1].brittleness};
+        l.u = {g.u_old[0], g.u_old[1]};
+        l.d = g.d_old[0];
+        l.solves = g.solves;
+        const Mask<Real> opens_fully = opens && l.x[0] >= normal_law.end_strain(l.brittleness[0]);
+        const Real shear_end = shear_law.end_strain(l.brittleness[1]);
+        const Mask<Real> fails = opens_fully || (slides && l.x[1] >= shear_end);
+        l.active = grows && !fails;
+        const Together<2, Real> together = solve_together<true, Link::largest, false, 2, Real>(l);
+        const Mask<Real> solved = together.solved && together.d >= max(g.d_old[0], g.d_old[1]);
+        // The first direction that fails, or the one that sets the damage.
+        const Mask<Real> first = y >= z, y_fails = y * direction[1].inverse_length >= shear_end;
+        g.sets[0] = select_mask(fails, opens_fully, together.sets[0]);
+        const Mask<Real> shears_set = !g.sets[0];
+        if (m == 2 || links_shears()) {
+            for (int j = 1; j < m; ++j) g.sets[j] = shears_set;
+        } else {
+            const Mask<Real> y_sets = select_mask(fails, y_fails, first);
+            g.sets[1] = shears_set && y_sets;
+            g.sets[m - 1] = shears_set && !y_sets;
+        }
+        for (int j = 0; j < m; ++j) {
+            g.fails[j] = fails && g.sets[j];
+            g.grows[j] = g.fails[j] || l.active;
+            g.d[j] = select(l.active, max(min(together.d, Real(1.0)), g.d_old[j]), g.d_old[j]);
+            const Softened<Real>& at = together.at[j > 0 ? 1 : 0];
+            g.at[j] = {select(fails, Real(law(j).end()), at.u), select(fails, Real(law(j).end_value()), at.f),
+                       at.slope};
+        }
+        const Mask<Real> rest = l.active && !solved;
+        if (any(rest)) [[unlikely]] {
+            const Growth<m, Real> apart = grow_apart(direction, g, rest);
+            for (int j = 0; j < m; ++j) {
+                g.sets[j] = select_mask(rest, apart.sets[j], g.sets[j]);
+                g.fails[j] = select_mask(rest, apart.fails[j], g.fails[j]);
+                g.grows[j] = select_mask(rest, apart.grows[j], g.grows[j]);
+                g.d[j] = select(rest, apart.d[j], g.d[j]);
+                g.at[j] = choose(rest, apart.at[j], g.at[j]);
+            }
+        }
+    }
+    // The same direction by direction, in the lanes `where`.
+    template <int m, class Real>
+    [[gnu::noinline, gnu::cold]] Growth<m, Real> grow_apart(Vector<SofteningDirection<Real>, m> direction,
+                                                            Growth<m, Real> g, Mask<Real> where) const {
+        for (int j = 0; j < m; ++j) {
+            g.enabled[j] = g.enabled[j] && where;
+            g.grows[j] = g.fails[j] = g.sets[j] = Mask<Real>(false);
+            g.d[j] = g.d_old[j];
+        }
+        grow_alone(0, direction, g);
+        grow_shears(direction, g);
+        couple(direction, g);
+        return g;
     }
 
     // SURF 3 of an isotropic crack: the larger of the shears is the one that may set the common damage.
@@ -293,12 +382,12 @@ class SofteningCrack : public LinkedSoftening {
             Real sum = Real(0.0);
             for (int k = 0; k < K; ++k) {
                 const int j = first + k;
-                linked.strain[k] = abs(g.end[j]);
-                if (merges && k == K - 1) linked.strain[k] = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
-                linked.length[k] = direction[j].length;
+                Real strain = abs(g.end[j]);
+                if (merges && k == K - 1) strain = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
+                linked.x[k] = strain * direction[j].inverse_length;
                 linked.brittleness[k] = direction[j].brittleness;
                 linked.u[k] = g.u_old[j];
-                sum = sum + square(linked.strain[k] / g.e_old[j]);
+                sum = sum + square(strain * g.per_e_old[j]);
             }
             linked.active = g.enabled[first] && sum > Real(1.0 + 2.0 * softening_growth_tolerance);
             g.grows[first] = linked.active;
@@ -330,13 +419,13 @@ class SofteningCrack : public LinkedSoftening {
         Real shear = abs(g.end[1]);
         if constexpr (m == 3) shear = sqrt(g.end[1] * g.end[1] + g.end[2] * g.end[2]);
         const UnderPressure<Real> step =
-            solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.e_old[0],
+            solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.per_e_old[0],
                                  g.u_old[0], g.u_old[1], g.enabled[0], g.solves);
         for (int j = 0; j < m; ++j) {
             if (j > 0) {
                 direction[j].set_strength(step.tau.value, direction[j].energy());
-                g.u_old[j] = step.u_old;
-                set_threshold(direction[j], step.u_old * direction[j].length, j, g);
+                if (j == 1) set_threshold(direction[j], step.u_old, j, g);
+                else copy_threshold(g);
             }
             g.grows[j] = step.grows;
             g.fails[j] = step.fails;
@@ -382,10 +471,6 @@ class SofteningCrack : public LinkedSoftening {
             g.at[j] = choose(follows, s, g.at[j]);
         }
     }
-    template <class M>
-    LODE_INLINE static M select_mask(const M& condition, const M& yes, const M& no) {
-        return (condition && yes) || (!condition && no);
-    }
 
     // Section 5.3: dW_j = (w_old + w)/2 [Gbar(new) - Gbar(old)], and what is left at a failure.
     template <int m, class Real>
@@ -394,10 +479,12 @@ class SofteningCrack : public LinkedSoftening {
         Vector<Real, m> w_old, w;
         for (int j = 0; j < m; ++j) w_old[j] = w[j] = Real(1.0);
         if (is_coupled()) {
+            Real per_e = Real(0.0);
             for (int j = 0; j < m; ++j) {
                 const Mask<Real>& sets = g.sets[j];
-                w_old[j] = select(sets, Real(1.0), min(square(Real(g.start[j] / g.e_old[j])), Real(1.0)));
-                w[j] = select(sets, Real(1.0), square(Real(g.end[j] / g.e(j, direction[j]))));
+                if (!(isotropic && j == 2)) per_e = g.per_e(j, direction[j]);
+                w_old[j] = select(sets, Real(1.0), min(square(Real(g.start[j] * g.per_e_old[j])), Real(1.0)));
+                w[j] = select(sets, Real(1.0), square(Real(g.end[j] * per_e)));
             }
             if constexpr (m == 3)
                 if (links_shears()) {
@@ -413,14 +500,14 @@ class SofteningCrack : public LinkedSoftening {
         } else if constexpr (m == 3) {
             if (links_shears()) weights<1, 2>(direction, g, w_old, w);
         }
+        const bool shared = isotropic && m == 3 && shares_shears();
         Real released = Real(0.0);
         for (int j = 0; j < m; ++j) {
             const Mask<Real>& grows = g.grows[j];
-            if (!any(grows)) continue;
+            if (!any(shared && j == 1 ? grows || g.grows[m - 1] : grows)) continue;
             const SofteningDirection<Real>& dir = direction[j];
             const Softened<Real>& s = g.at[j];
-            const bool same = isotropic && j == 2 && links_all_shears();
-            if (!same) released = dir.energy() * (law(j).omega(s) - law(j).omega(g.u_old[j]));
+            if (!(shared && j == 2)) released = dir.energy() * (law(j).omega(s) - law(j).omega(g.u_old[j]));
             const Real rest = select(g.fails[j], (0.5 * w[j] * s.f) * s.strain(dir.brittleness), Real(0.0));
             const Real change = 0.5 * (w_old[j] + w[j]) * positive_part(released) + dir.energy() * rest;
             crack.dissipated[j] = select(grows, crack.dissipated[j] + change, crack.dissipated[j]);
@@ -433,15 +520,16 @@ class SofteningCrack : public LinkedSoftening {
     LODE_INLINE static void weights(const Vector<SofteningDirection<Real>, m>& direction, const Growth<m, Real>& g,
                                     Vector<Real, m>& w_old, Vector<Real, m>& w) {
         Vector<Real, m> a, b;
-        Real aa = Real(0.0), ab = Real(0.0), bb = Real(0.0), sum = Real(0.0);
+        Real aa = Real(0.0), ab = Real(0.0), bb = Real(0.0), sum = Real(0.0), per_e = Real(0.0);
         for (int j = first; j < first + count; ++j) {
-            const Real inverse = 1.0 / g.e_old[j];
+            const Real& inverse = g.per_e_old[isotropic && j == 2 ? 1 : j];
+            if (j == first || !(isotropic && j == 2)) per_e = g.per_e(j, direction[j]);
             a[j] = g.start[j] * inverse;
             b[j] = g.end[j] * inverse - a[j];
             aa = aa + a[j] * a[j];
             ab = ab + a[j] * b[j];
             bb = bb + b[j] * b[j];
-            w[j] = square(Real(g.end[j] / g.e(j, direction[j])));
+            w[j] = square(Real(g.end[j] * per_e));
             sum = sum + w[j];
         }
         const Real tiny(1e-300);
@@ -503,33 +591,40 @@ class SofteningCrack : public LinkedSoftening {
                                [[maybe_unused]] const Pressure& pressure,
                                [[maybe_unused]] const ShearStrength<double>& tau, const Growth<m, double>& g,
                                DamageRates<m>& rates) const {
+        double per_e[m], rise[m], w[m];  // 1/e, e (C + F')/Phi of positive Phi, (q/e)^2
+        for (int j = 0; j < m; ++j) {
+            const bool again = isotropic && j == 2 && shares_shears();
+            const Softened<double>& s = g.at[j];
+            const double r = direction[j].brittleness;
+            per_e[j] = again ? per_e[j - 1] : g.per_e(j, direction[j]);
+            rise[j] = again ? rise[j - 1] : s.strain(r) * (1.0 + r * s.slope) / (r * s.phi());
+            w[j] = square(g.end[j] * per_e[j]);
+        }
         // dd/dq_k = (q_k/e_k^2)/D, D = sum q^2 (C + F')/(e Phi), of the directions first .. last
         const auto group = [&](int first, int last, int to_first, int to_last) {
             double D = 0.0;
             for (int j = first; j <= last; ++j) {
-                const Softened<double>& s = g.at[j];
-                const double r = direction[j].brittleness, phi = s.phi();
-                const double w = square(g.end[j] / g.e(j, direction[j]));
-                if (w == 0.0) continue;
-                if (!(phi > 0.0)) return;
-                D += w * s.strain(r) * (1.0 + r * s.slope) / (r * phi);
+                if (w[j] == 0.0) continue;
+                if (!(g.at[j].phi() > 0.0)) return;
+                D += w[j] * rise[j];
             }
             if constexpr (has_pressure<Pressure>)
                 if (first == 0 && last > 0) {
                     // the shear strength follows the opening of the crack
                     const Softened<double>& s = g.at[1];
-                    double w = 0.0;
-                    for (int j = 1; j <= last; ++j) w += square(g.end[j] / g.e(j, direction[j]));
+                    double shears = 0.0;
+                    for (int j = 1; j <= last; ++j) shears += w[j];
                     const double by_tau = (s.f + s.u * s.slope) / (s.phi() * tau.value);
-                    const double by_pressure = -w * by_tau * tau.slope;  // dG/dP/2
+                    const double by_pressure = -shears * by_tau * tau.slope;  // dG/dP/2
                     D -= by_pressure * pressure.K * g.end[0];
                     for (int i = to_first; i <= to_last; ++i) {
                         rates.by_pressure[i] = by_pressure / D;
                         rates.by_strain[i][0] = by_pressure / D * pressure.K * g.d[0] * (g.end[0] > 0.0 ? 1.0 : 0.0);
                     }
                 }
+            const double inverse_D = 1.0 / D;
             for (int k = first; k <= last; ++k) {
-                const double rate = g.end[k] / (square(g.e(k, direction[k])) * D);
+                const double rate = g.end[k] * square(per_e[k]) * inverse_D;
                 for (int i = to_first; i <= to_last; ++i) rates.by_strain[i][k] += rate;
             }
         };

@@ -10,13 +10,22 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "lode/material/properties.hpp"
+#include "lode/numerics/functions.hpp"
 #include "lode/numerics/lambert.hpp"
 #include "lode/numerics/root.hpp"
 
 namespace lode {
+
+// One point takes libm's, whose table is quicker than a long polynomial; a batch takes what is inlined.
+template <class Real>
+LODE_INLINE Real softening_exp(const Real& x) {
+    if constexpr (is_batch<Real>) return quick_exp(x);
+    else return exp(x);
+}
 
 // A point of a law.
 template <class Real>
@@ -27,6 +36,11 @@ struct Softened {
     LODE_INLINE Real phi() const { return f - u * slope; }
     // e/L.
     LODE_INLINE Real strain(const Real& r) const { return u + r * f; }
+};
+// The same with d2f/du2.
+template <class Real>
+struct BentSoftened : Softened<Real> {
+    Real curvature;
 };
 
 class SofteningLaw {
@@ -73,10 +87,10 @@ class SofteningLaw {
             default: {
                 k_ = std::tgamma(1.0 + 1.0 / a);
                 end_ = std::pow(-std::log(fmin), 1.0 / a) / k_, end_value_ = fmin;
+                smallest_ = std::exp(-700.0 / a) / k_;
                 const double t = a - 1.0;
                 eta_ = a > 1.0 ? 1.0 / (t * std::pow(a / t, 1.0 / a) * std::exp(-t / a) * k_) : 1.0;
-                // Terms of the series of omega down to rounding, at the end, where it converges most slowly.
-                terms_ = series_terms(-std::log(fmin)), tail_terms_ = series_terms(far);
+                set_gamma();
             }
         }
         end_release_ = value_of(omega(end_)) + 0.5 * end_value_ * end_;
@@ -84,6 +98,7 @@ class SofteningLaw {
 
     int code() const { return code_; }
     bool is_linear() const { return code_ == linear; }
+    bool is_exponential() const { return code_ == exponential; }
     // f ends at 0, so damage ends at 1.
     bool has_end() const { return end_value_ == 0.0; }
     // u and f where the law is taken as failed.
@@ -101,7 +116,7 @@ class SofteningLaw {
     }
     template <class Real>
     LODE_INLINE Real end_damage(const Real& r) const {
-        return end_ / end_strain(r);
+        return has_end() ? Real(1.0) : Real(end_ / end_strain(r));
     }
     // Energy per volume over G/h released by a complete failure in one direction: 1 but for the tail that FMIN cuts.
     template <class Real>
@@ -115,12 +130,33 @@ class SofteningLaw {
         return curved(u);
     }
 
-    // A point at u, from one that is so near that the third power of the distance is rounding.
     template <class Real>
-    LODE_INLINE Softened<Real> moved(const Softened<Real>& s, const Real& u) const {
-        if (code_ != exponential) return at(u);
-        const Real step = s.u - u, f = s.f * (1.0 + step * (1.0 + 0.5 * step));
-        return {u, f, -f};
+    LODE_INLINE BentSoftened<Real> bent_at(const Real& u) const {
+        switch (code_) {
+            case linear:
+                return {{u, 1.0 - 0.5 * u, Real(-0.5)}, Real(0.0)};
+            case exponential:
+                return bent_of<exponential>(u);
+            case smooth_step:
+            case cubic:
+                return bent_of<cubic>(u);
+            default:
+                return bent(u);
+        }
+    }
+    // The point at u, from one within 1e-5 of it. The slope, which batches do not ask for, is less accurate there.
+    template <class Real>
+    LODE_INLINE Softened<Real> moved(const BentSoftened<Real>& s, const Real& u) const {
+        if constexpr (is_differentiated<Real>) return at(u);
+        const Real step = u - s.u;
+        if (code_ == exponential) {
+            const Real f = s.f * (1.0 - step * (1.0 - step * (0.5 - (1.0 / 6.0) * step)));
+            return {u, f, -f};
+        }
+        if (!is_batch<Real> && code_ > cubic) return at(u);
+        const double third = code_ == smooth_step || code_ == cubic ? 12.0 * k2_ / (end_ * end_ * end_) : 0.0;
+        const Real f = s.f + step * (s.slope + step * (0.5 * s.curvature + (third / 6.0) * step));
+        return {u, f, s.slope + step * (s.curvature + (0.5 * third) * step)};
     }
 
     // omega(u) = integral of f - u f/2.
@@ -151,17 +187,44 @@ class SofteningLaw {
     LODE_INLINE Real omega(const Softened<Real>& s) const {
         if (code_ == linear) return 0.5 * s.u;
         if (code_ == exponential) return 1.0 - s.f * (1.0 + 0.5 * s.u);
-        if (code_ == stretched_exponential) return stretched_omega(s.u, Real(-log(max(s.f, Real(1e-300)))), s.f);
+        if (code_ == stretched_exponential) return stretched_omega(s.u, Real(-quick_log(max(s.f, Real(1e-300)))), s.f);
         return curved_omega(s.u);
     }
 
-    // Its u alone; `u_start` near the answer.
+    // The exponential law at damage d: u e^u = X, X = r d/(1 - d), that is u = W0(X) (Lambert). A step of fourth order
+    // (Fritsch, Shafer, Crowley 1973) from a point of it; `change` is its relative size, or more where it is a poor
+    // one.
     template <class Real>
-    LODE_INLINE Real delta_at_damage(const Real& d, const Real& r, const Real& u_start, const Mask<Real>& active,
-                                     const SolveCounter<Real>& solves) const {
-        if constexpr (!is_differentiated<Real>)
-            if (code_ == exponential) return solve_exponential(d, r, u_start, active, solves);
-        return at_damage(d, r, u_start, active, solves).u;
+    LODE_INLINE Real exponential_step(const Softened<Real>& at, const Real& X, Real& change) const {
+        const Real pull = X * at.f;
+        return fritsch_step(at.u, Real((pull - at.u) / max(pull + at.u, Real(1e-300))), change);
+    }
+    // After a step that is not larger nothing but rounding is left.
+    static constexpr double exact_step = 5e-4;
+    // u for X times `ratio`, from the series in its logarithm.
+    template <class Real>
+    LODE_INLINE Real exponential_moved(const Real& u, const Real& ratio) const {
+        const Real part = 1.0 / (1.0 + u), s = (ratio - 1.0) / (ratio + 1.0);
+        const Real z = 2.0 * s * (1.0 + (1.0 / 3.0) * (s * s));
+        return u * (1.0 + z * part * (1.0 + 0.5 * z * (part * part)));
+    }
+    // u in the lanes `active`.
+    template <class Real>
+    [[gnu::noinline]] Real solve_exponential(Real X, Real u, Mask<Real> active, SolveCounter<Real> solves) const {
+        constexpr int most = 60;
+        // A bound of the root from below, for guesses that would take long or that are not numbers.
+        const Real lower = X / (1.0 + X);
+        u = select(active && !(u > lower && u < Real(far)), lower, u);
+        Mask<Real> done = !active;
+        int iteration = 0;
+        for (; iteration < most && !all(done); ++iteration) {
+            Real change;
+            const Real next = exponential_step(curved_of<exponential>(u), X, change);
+            u = select(done, u, select(next > lower, next, lower));
+            done = done || change <= exact_step;
+        }
+        solves.count(iteration);
+        return u;
     }
 
   private:
@@ -193,28 +256,45 @@ class SofteningLaw {
     }
     template <Code code, class Real>
     LODE_INLINE Softened<Real> curved_of(const Real& u) const {
+        return bent_of<code>(u);
+    }
+    template <class Real>
+    [[gnu::noinline]] BentSoftened<Real> bent(Real u) const {
+        if (code_ == double_exponential) return bent_of<double_exponential>(u);
+        return bent_of<stretched_exponential>(u);
+    }
+    template <Code code, class Real>
+    LODE_INLINE BentSoftened<Real> bent_of(const Real& u) const {
         if constexpr (code == exponential) {
-            const Real f = exp(-u);
-            return {u, f, -f};
+            const Real f = softening_exp(Real(-u));
+            return {{u, f, -f}, f};
         } else if constexpr (code == cubic) {
-            const Real x = min(Real(u * (1.0 / end_)), Real(1.0)), rest = 1.0 - x;
-            return {u, (1.0 + 2.0 * k2_ * x) * (rest * rest), (1.0 / end_) * (a1_ - 6.0 * k2_ * x) * rest};
+            const double inverse = 1.0 / end_;
+            const Real x = min(Real(u * inverse), Real(1.0)), rest = 1.0 - x, bend = 6.0 * k2_ * x;
+            return {{u, (1.0 + 2.0 * k2_ * x) * (rest * rest), inverse * (a1_ - bend) * rest},
+                    square(inverse) * (2.0 * bend - (a1_ + 6.0 * k2_))};
         } else if constexpr (code == double_exponential) {
-            const Real slow = scale_ * exp(-k_ * u), fast = (scale_ * a2_) * exp((-a1_ * k_) * u);
-            return {u, slow - fast, k_ * (a1_ * fast - slow)};
+            const Real slow = scale_ * softening_exp(Real(-k_ * u));
+            const Real fast = (scale_ * a2_) * softening_exp(Real((-a1_ * k_) * u));
+            return {{u, slow - fast, k_ * (a1_ * fast - slow)}, (k_ * k_) * (slow - (a1_ * a1_) * fast)};
         } else {
             // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
-            const Real size = max(u, Real(1e-300)), z = pow(k_ * size, Real(a1_));
-            const Real f = exp(-z);
-            return {u, f, -a1_ * z / size * f};
+            const Real size = max(u, Real(smallest_)), z = stretched_exponent(size), f = softening_exp(Real(-z));
+            const Real rate = a1_ * z / size;
+            return {{u, f, -rate * f}, rate * f * (rate - (a1_ - 1.0) / size)};
         }
+    }
+    // (k u)^a
+    template <class Real>
+    LODE_INLINE Real stretched_exponent(const Real& u) const {
+        return softening_exp(Real(a1_ * quick_log(Real(k_ * u))));
     }
 
     template <class Real>
     [[gnu::noinline]] Real curved_omega(Real u) const {
         switch (code_) {
             case exponential:
-                return 1.0 - exp(-u) * (1.0 + 0.5 * u);
+                return 1.0 - softening_exp(Real(-u)) * (1.0 + 0.5 * u);
             case smooth_step:
             case cubic: {
                 const Real x = u * (1.0 / end_);
@@ -222,42 +302,65 @@ class SofteningLaw {
             }
             case double_exponential: {
                 const double a = a1_, b = a2_, inverse_k = 1.0 / k_;
-                return scale_ * ((a - b) / a * inverse_k - exp(-k_ * u) * (inverse_k + 0.5 * u) +
-                                 b * exp((-a * k_) * u) * (inverse_k / a + 0.5 * u));
+                const Real slow = softening_exp(Real(-k_ * u)), fast = softening_exp(Real((-a * k_) * u));
+                return scale_ *
+                       ((a - b) / a * inverse_k - slow * (inverse_k + 0.5 * u) + b * fast * (inverse_k / a + 0.5 * u));
             }
             default: {
-                const Real z = pow(k_ * max(u, Real(1e-300)), Real(a1_));
-                return stretched_omega(u, z, Real(exp(-z)));
+                const Real z = stretched_exponent(max(u, Real(smallest_)));
+                return stretched_omega(u, z, softening_exp(Real(-z)));
             }
         }
     }
 
+    // The integral of f is u f times a series, or 1 less that of the tail, an incomplete gamma function either way;
     // z = (k u)^a.
     template <class Real>
-    [[gnu::noinline]] Real stretched_omega(Real u, Real z, Real f) const {
-        const Real integral = u * f * gamma_series(z, terms_);
-        const Mask<Real> beyond = u > Real((1.0 + 1e-14) * end_);
-        if (!any(beyond)) [[likely]]
-            return integral - 0.5 * u * f;
-        // On the tail; in the end it is all of the area.
-        const Real tail = u * f * gamma_series(min(z, Real(far)), tail_terms_);
-        return select(beyond, select(z > Real(far), Real(1.0), tail), integral) - 0.5 * u * f;
+    LODE_INLINE Real stretched_omega(const Real& u, const Real& z, const Real& f) const {
+        const Real uf = u * f;
+        const Mask<Real> beyond = z > Real(split);
+        Real integral = Real(0.0);
+        if (!all(beyond)) integral = uf * gamma_series(z);
+        if (any(beyond)) integral = select(beyond, 1.0 - uf * gamma_tail(z), integral);
+        return integral - 0.5 * uf;
     }
-
-    // integral of f from 0 to u over u f = 1 + z/(s + 1) (1 + z/(s + 2) (1 + ...)), s = 1/a: the power series of the
-    // lower incomplete gamma function.
+    // 1 + z/(s + 1) (1 + z/(s + 2) (1 + ...)), s = 1/a: the lower function, four terms at a time.
     template <class Real>
-    LODE_INLINE Real gamma_series(const Real& z, int terms) const {
-        const double s = 1.0 / a1_;
-        Real series = Real(1.0);
-        for (int n = terms; n > 0; --n) series = 1.0 + series * (z * (1.0 / (s + n)));
-        return series;
+    LODE_INLINE Real gamma_series(const Real& z) const {
+        const Real z2 = z * z, z4 = z2 * z2;
+        Real sum = Real(0.0);
+        for (int n = series_terms - 4; n >= 0; n -= 4)
+            sum = sum * z4 + ((series_[n] + series_[n + 1] * z) + z2 * (series_[n + 2] + series_[n + 3] * z));
+        return sum;
     }
-    // How many of its terms matter up to z.
-    int series_terms(double z) const {
-        int n = 1;
-        for (double term = 1.0; term > 1e-18; ++n) term *= z / (n + 1.0 / a1_);
-        return n;
+    // The upper function, smooth in 1/z: Clenshaw's sum of Chebyshev polynomials.
+    template <class Real>
+    LODE_INLINE Real gamma_tail(const Real& z) const {
+        const Real w = 1.0 / max(min(z, Real(far)), Real(split)), x = tail_scale * w - tail_shift;
+        Real a = Real(0.0), b = Real(0.0);
+        for (int n = tail_terms - 1; n > 0; --n) {
+            const Real next = tail_[n] + 2.0 * x * a - b;
+            b = a;
+            a = next;
+        }
+        return w * (tail_[0] + x * a - b);
+    }
+    void set_gamma() {
+        const double s = 1.0 / a1_;
+        double term = 1.0;
+        for (int n = 0; n < series_terms; ++n) {
+            series_[n] = term;
+            term /= s + n + 1.0;
+        }
+        for (int i = 0; i < tail_terms; ++i) {
+            const double angle = std::numbers::pi * (i + 0.5) / tail_terms;
+            const double z = tail_scale / (std::cos(angle) + tail_shift);
+            // Legendre's continued fraction of the upper function.
+            double rest = 0.0;
+            for (int n = 60; n > 0; --n) rest = n * (n - s) / (z + 2.0 * n + 1.0 - s - rest);
+            const double value = z / (z + 1.0 - s - rest) * s * (2.0 / tail_terms);
+            for (int n = 0; n < tail_terms; ++n) tail_[n] += (n == 0 ? 0.5 : 1.0) * value * std::cos(n * angle);
+        }
     }
 
     // The strain grows with u. Newton starts where the increment is small at the old point, else at the upper end,
@@ -294,7 +397,8 @@ class SofteningLaw {
                 if constexpr (is_differentiated<Real>) {
                     return solve_by_newton<exponential>(d, r, u_start, active, solves);
                 } else {
-                    const Real u = solve_exponential(d, r, u_start, active, solves), f = exp(-u);
+                    const Real X = d * r / max(1.0 - d, Real(1e-16));
+                    const Real u = solve_exponential(X, u_start, active, solves), f = softening_exp(Real(-u));
                     return {u, f, -f};
                 }
             case double_exponential:
@@ -312,7 +416,7 @@ class SofteningLaw {
         Real f = u;
         Mask<Real> done = Mask<Real>(false);
         for (int iteration = 0;; ++iteration) {
-            const Real at = exp(-u), step = (u + r * at - x) / (1.0 - r * at);
+            const Real at = softening_exp(Real(-u)), step = (u + r * at - x) / (1.0 - r * at);
             const Mask<Real> last = !done && (!active || abs(step) <= 1e-8);
             // What is left is a few squares of the step.
             f = select(last, at * (1.0 + step * (1.0 + 0.5 * step)), f);
@@ -324,23 +428,15 @@ class SofteningLaw {
             }
         }
     }
-    // u (1 - d) = d r e^-u is concave in u: Newton comes from below after at most one step.
+    // The root w of w + ln w = u + ln u + z, z = 2 artanh(s), s small.
     template <class Real>
-    [[gnu::noinline]] Real solve_exponential(Real d, Real r, Real u, Mask<Real> active,
-                                             SolveCounter<Real> solves) const {
-        constexpr int most = 60;
-        const Real rest = max(1.0 - d, Real(1e-16)), weight = d * r;
-        Mask<Real> done = !active;
-        int iteration = 0;
-        for (; iteration < most && !all(done); ++iteration) {
-            const Real pull = weight * exp(-u);
-            const Real step = (u * rest - pull) / (rest + pull);
-            u = select(done, u, u - step);
-            // What is left is half the square of the step.
-            done = done || abs(step) <= 1e-8 * abs(u);
-        }
-        solves.count(iteration);
-        return u;
+    LODE_INLINE static Real fritsch_step(const Real& u, const Real& s, Real& change) {
+        const Real s2 = s * s;
+        const Real z = 2.0 * s * (1.0 + s2 * (1.0 / 3 + s2 * (1.0 / 5 + s2 * (1.0 / 7 + s2 * (1.0 / 9)))));
+        const Real next = 1.0 + u, q = 2.0 * next * (next + (2.0 / 3.0) * z);
+        const Real step = z * (q - z) / (next * (q - 2.0 * z));
+        change = max(abs(step), Real(0.02 * abs(s)));
+        return u * (1.0 + step);
     }
     template <Code code, class Real>
     LODE_INLINE Softened<Real> solve_by_newton(const Real& d, const Real& r, const Real& u_start,
@@ -405,29 +501,42 @@ class SofteningLaw {
     static constexpr double tolerance = 2e-15;
     static constexpr double far = 40.0;  // exp(-far) is less than rounding of 1
 
-    int code_, terms_ = 0, tail_terms_ = 0;
+    // Terms of the integral of law 6 on both sides of z = split, down to rounding.
+    static constexpr int series_terms = 40, tail_terms = 15;
+    static constexpr double split = 5.0;
+    // 1/z from 1/far to 1/split onto -1 to 1.
+    static constexpr double tail_scale = 2.0 / (1.0 / split - 1.0 / far);
+    static constexpr double tail_shift = 0.5 * tail_scale * (1.0 / split + 1.0 / far);
+
+    int code_;
+    double series_[series_terms] = {}, tail_[tail_terms] = {};
     double a1_, a2_;
     double k2_ = 1.0, k_ = 1.0, scale_ = 1.0;
+    double smallest_ = 0.0;  // law 6: u below which (k u)^a underflows
     double end_ = 0.0, end_value_ = 0.0, peak_ = 1.0, eta_ = 1.0, end_release_ = 0.0;
 };
 
 // The law of one direction at one material point.
 template <class Real>
 struct SofteningDirection {
-    Real strength, length, modulus;  // sig, L = G/(h sig), C
-    Real brittleness;                // r
-    Mask<Real> enabled;              // a direction of zero strength never fails
+    Real strength, length, modulus;   // sig, L = G/(h sig), C
+    Real inverse_length, compliance;  // 1/L, 1/C
+    Real inverse_energy;              // h/G
+    Real brittleness;                 // r
+    Mask<Real> enabled;               // a direction of zero strength never fails
 
     SofteningDirection() = default;
     // `energy`: G/h.
-    LODE_INLINE SofteningDirection(const Real& sig, const Real& energy, const Real& C) : modulus(C) {
+    LODE_INLINE SofteningDirection(const Real& sig, const Real& energy, const Real& C)
+        : modulus(C), compliance(1.0 / C), inverse_energy(1.0 / energy) {
         enabled = sig > Real(0.0);
         set_strength(select(enabled, sig, Real(1.0)), energy);
     }
     LODE_INLINE void set_strength(const Real& sig, const Real& energy) {
         strength = sig;
         length = energy / sig;
-        brittleness = sig / (modulus * length);
+        inverse_length = sig * inverse_energy;
+        brittleness = strength * inverse_length * compliance;
     }
     // HPOL = 1: the strength that keeps r at 0.98 of the law's limit.
     LODE_INLINE void limit_strength(const SofteningLaw& law) {
@@ -437,11 +546,12 @@ struct SofteningDirection {
         const Real factor = select(excessive, sqrt(most / brittleness), Real(1.0));
         strength = factor * strength;
         length = length / factor;
+        inverse_length = factor * inverse_length;
         brittleness = select(excessive, most, brittleness);
     }
 
-    LODE_INLINE Real energy() const { return strength * length; }         // G/h
-    LODE_INLINE Real onset_strain() const { return strength / modulus; }  // eps0
+    LODE_INLINE Real energy() const { return strength * length; }            // G/h
+    LODE_INLINE Real onset_strain() const { return strength * compliance; }  // eps0
 };
 
 }  // namespace lode

@@ -12,13 +12,13 @@ inline constexpr double softening_growth_tolerance = 1e-10;
 // The pressure P = P0 + K EC_N that the shear strength of an isotropic crack depends on.
 template <class Real>
 struct CrackPressure {
-    const PressureDependence& dependence;
+    const PressureDependence* dependence;
     Real relative_strength, P0;
     double K;
     Real largest_strength;
 
     LODE_INLINE ShearStrength<Real> strength(const Real& opening) const {
-        return dependence.at(Real(P0 + K * opening), relative_strength, largest_strength);
+        return dependence->at(Real(P0 + K * opening), relative_strength, largest_strength);
     }
 };
 struct NoPressure {};
@@ -32,17 +32,26 @@ struct LinkedSoftening {
     LinkedSoftening(const SofteningLaw& normal, const SofteningLaw& shear)
         : normal_law(normal), shear_law(shear), all_linear_(normal.is_linear() && shear.is_linear()) {}
 
+    bool is_linear() const { return all_linear_; }
     LODE_INLINE const SofteningLaw& law(int j) const { return j == 0 ? normal_law : shear_law; }
 
     // K linked directions; on return `d`, `at` and `fails`.
     template <int K, class Real>
     struct Linked {
-        Vector<Real, K> strain, length, brittleness, u;
-        Real modulus = Real(0.0);  // of the shears, where their strength depends on pressure
+        Vector<Real, K> x, brittleness, u;  // x = strain/L
         Real d;
         Mask<Real> active, fails;
         Vector<Softened<Real>, K> at;
         [[no_unique_address]] SolveCounter<Real> solves;
+    };
+
+    // Linked directions of which the last one, of the shears, has a strength that depends on pressure.
+    template <class Real>
+    struct LinkedUnderPressure : Linked<2, Real> {
+        CrackPressure<Real> pressure;
+        Real opening, weakness, by_strength;  // strain of the normal direction; r/tau^2, x/tau of the shears
+        ShearStrength<Real> tau;              // at the start
+        BentSoftened<Real> shears;            // their law there
     };
 
     template <bool with_normal, int K, class Real>
@@ -52,24 +61,32 @@ struct LinkedSoftening {
         return l;
     }
 
-    // Linear laws, e = eps0/(1 - k d): a quadratic in d.
+    // Linear laws, e = eps0/(1 - k d): a quadratic in d. Its discriminant B^2 - A D is written as in Lagrange's
+    // identity, which does not cancel.
     template <int K, class Real>
     LODE_INLINE void solve_linear(Linked<K, Real>& l) const {
         Real A = Real(0.0), B = Real(0.0), D = Real(-1.0), last = Real(0.0);
-        Vector<Real, K> k;
+        Vector<Real, K> k, ratio;
         for (int j = 0; j < K; ++j) {
-            const Real x = l.strain[j] / l.length[j], ratio = x / l.brittleness[j];
+            const Real& x = l.x[j];
+            ratio[j] = x / l.brittleness[j];
             k[j] = 1.0 - 0.5 * l.brittleness[j];
-            A = A + square(ratio * k[j]);
-            B = B + square(ratio) * k[j];
-            D = D + square(ratio);
+            A = A + square(ratio[j] * k[j]);
+            B = B + square(ratio[j]) * k[j];
+            D = D + square(ratio[j]);
             last = last + square(0.5 * x);
         }
+        Real discriminant = A;
+        for (int i = 0; i < K; ++i)
+            for (int j = 0; j < i; ++j) {
+                const Real part = 0.5 * (l.brittleness[i] - l.brittleness[j]);  // k_j - k_i
+                discriminant = discriminant - square(ratio[i] * ratio[j] * part);
+            }
         l.fails = l.active && last >= Real(1.0);
-        l.d = D / (B + sqrt(positive_part(Real(B * B - A * D))));
+        l.d = D / (B + sqrt(positive_part(discriminant)));
         l.d = select(l.fails, Real(1.0), l.d);
         for (int j = 0; j < K; ++j) {
-            const Real u = l.d * l.brittleness[j] / (1.0 - k[j] * l.d);
+            const Real u = min(Real(l.d * l.brittleness[j] / (1.0 - k[j] * l.d)), Real(2.0));
             l.at[j] = {u, 1.0 - 0.5 * u, Real(-0.5)};
         }
     }
@@ -79,19 +96,19 @@ struct LinkedSoftening {
         return with_normal && k == 0 ? normal_law : shear_law;
     }
 
-    // Laws of any shape: d and the points of the laws together by Newton's method, else one inside the other.
+    // Laws of any shape: d and the points of the laws together, else one inside the other.
     template <bool with_normal, int K, class Real>
-    [[gnu::noinline]] Linked<K, Real> solve_curved(Linked<K, Real> l) const {
+    LODE_INLINE Linked<K, Real> solve_curved(Linked<K, Real> l) const {
         Real d_end = Real(1.0), least = Real(0.0);
         for (int k = 0; k < K; ++k) {
             const SofteningLaw& softening = law_of<with_normal>(k);
             d_end = min(d_end, softening.end_damage(l.brittleness[k]));
-            least = least + square(l.strain[k] / (l.length[k] * softening.end_strain(l.brittleness[k])));
+            least = least + square(l.x[k] / softening.end_strain(l.brittleness[k]));
         }
         // Beyond the ends of all laws there is nothing to solve.
         Linked<K, Real> open = l;
         open.active = l.active && least < Real(1.0);
-        const Together<K, Real> together = solve_together<with_normal>(open, NoPressure{}, Real(0.0));
+        const Together<K, Real> together = solve_together<with_normal, Link::ellipse, false, K, Real>(open);
         const Mask<Real> solved = together.solved && together.d < d_end;
         const Mask<Real> rest = l.active && !solved;
         l.fails = Mask<Real>(false);
@@ -106,89 +123,172 @@ struct LinkedSoftening {
         return l;
     }
 
-    // With t = d/(1 - d) the points of the laws satisfy u = t r f(u), and the surface is 1/sqrt(S) = 1 with
-    // S = sum (q/e)^2: all nearly linear.
+    // With t = d/(1 - d) the points of the laws satisfy u = t r f(u). The surface is S = sum (q/e)^2 = 1, or the
+    // largest q/e is 1.
+    enum class Link { ellipse, largest };
     template <int K, class Real>
     struct Together {
         Real d;
         Vector<Softened<Real>, K> at;
+        Vector<Mask<Real>, K> sets;  // Link::largest: the direction whose q/e is 1
         ShearStrength<Real> tau;
         Mask<Real> solved;
     };
-    template <bool with_normal, int K, class Real, class Pressure>
-    LODE_INLINE Together<K, Real> solve_together(const Linked<K, Real>& l, [[maybe_unused]] const Pressure& pressure,
-                                                 [[maybe_unused]] const Real& energy) const {
+    // All equations at once by Chebyshev's method, Newton's with a correction for the second derivatives along the
+    // step: of third order with the divisions of the second.
+    template <bool with_normal, Link link, bool under_pressure, int K, class Real>
+    LODE_INLINE Together<K, Real> solve_together(
+        const std::conditional_t<under_pressure, LinkedUnderPressure<Real>, Linked<K, Real>>& l) const {
         constexpr int most = 12;
-        // From a residual of the first, Newton's step leads below the second, rounding. A differentiated number is
-        // iterated to the end: its derivatives are one step behind the value.
-        constexpr double near = 2e-8, tolerance = 4e-15;
-        const Real one(1.0);
+        // After a step and a correction of these relative sizes what is left is rounding, their sequence being
+        // geometric. A differentiated number is iterated on: its derivatives are behind the value.
+        constexpr double near = 1e-5, nearer = 1e-10;
+        constexpr int confirmations = is_differentiated<Real> ? 2 : 0;
+        const Real zero(0.0), one(1.0);
         Together<K, Real> s;
         s.solved = !l.active;
         s.d = l.d;
-        Vector<Real, K> u = l.u, u_solved = l.u;
-        Real t = l.d / max(one - l.d, Real(1e-16));
-        [[maybe_unused]] bool confirmed = false;
-        for (int iteration = 0;; ++iteration) {
-            const Real inverse = 1.0 / (1.0 + t), d = t * inverse;
-            Vector<Real, K> r = l.brittleness, length = l.length;
-            Real rise = Real(0.0);  // d ln(tau)/dt
-            if constexpr (has_pressure<Pressure>) {
-                const ShearStrength<Real> tau = pressure.strength(d * l.strain[0]);
-                rise = tau.slope / tau.value * (pressure.K * l.strain[0]) * (inverse * inverse);
-                length[K - 1] = energy / tau.value;
-                r[K - 1] = tau.value / (l.modulus * length[K - 1]);
+        Real left = max(one - l.d, Real(1e-16)), t = l.d / left;  // `left`: 1 - d
+        Vector<Real, K> u = l.u, r = l.brittleness, x = l.x;
+        Vector<BentSoftened<Real>, K> point, last;
+        for (int k = 0; k < K; ++k)
+            if (!(under_pressure && k == K - 1)) point[k] = law_of<with_normal>(k).bent_at(u[k]);
+        if constexpr (under_pressure) {
+            s.tau = l.tau;
+            point[K - 1] = l.shears;
+        }
+        int confirmed = 0;
+        s.at = {};
+        for (int iteration = 0; any(l.active); ++iteration) {
+            [[maybe_unused]] Real rise = zero, bow = zero;  // d ln(tau)/dt, (d2 tau/dt2)/(2 tau)
+            if constexpr (under_pressure) {
+                const Real relative = 1.0 / s.tau.value, by_t = l.pressure.K * l.opening * (left * left);
+                rise = s.tau.slope * relative * by_t;
+                bow = 0.5 * s.tau.curvature * relative * (by_t * by_t) - rise * left;
+                r[K - 1] = l.weakness * (s.tau.value * s.tau.value);
+                x[K - 1] = l.by_strength * s.tau.value;
             }
-            Vector<Softened<Real>, K> point;
-            Vector<Real, K> F, B, A;
-            Real S = Real(0.0), c = Real(0.0), b = Real(0.0), miss = Real(0.0);
+            // With u following t, e/q of a direction changes by the fraction z, to first order lead dt - lag.
+            Vector<Real, K> B, A, F, inverse, follow, ratio, lead, lag;
             for (int k = 0; k < K; ++k) {
-                point[k] = law_of<with_normal>(k).at(u[k]);
-                const Softened<Real>& at = point[k];
-                const Real strain = at.strain(r[k]), inverse_strain = 1.0 / strain, stretch = 1.0 + r[k] * at.slope;
-                const Real w = square(l.strain[k] / length[k] * inverse_strain), drop = w * stretch * inverse_strain;
-                F[k] = u[k] - t * r[k] * at.f;
-                B[k] = r[k] * at.f;
+                const BentSoftened<Real>& at = point[k];
+                inverse[k] = 1.0 / at.strain(r[k]);
                 A[k] = 1.0 / (1.0 - t * r[k] * at.slope);
-                S = S + w;
-                if (has_pressure<Pressure> && k == K - 1) {
-                    c = c + w * rise * (2.0 * B[k] * inverse_strain - 1.0);
+                B[k] = r[k] * at.f;
+                F[k] = u[k] - t * B[k];
+                follow[k] = (1.0 + r[k] * at.slope) * inverse[k];
+                ratio[k] = x[k] * inverse[k];
+                const Real by_u = follow[k] * A[k];
+                lag[k] = by_u * F[k];
+                if (under_pressure && k == K - 1) {
+                    const Real by_tau = rise * (2.0 * B[k] * inverse[k] - 1.0);
                     B[k] = B[k] * (1.0 + 2.0 * t * rise);
+                    lead[k] = by_u * B[k] + by_tau;
+                } else {
+                    lead[k] = by_u * B[k];
                 }
-                c = c + drop * B[k] * A[k];
-                b = b + drop * F[k] * A[k];
-                miss = max(miss, Real(abs(F[k]) - (is_differentiated<Real> ? tolerance : near) * u[k]));
             }
-            const Real root = sqrt(S);
-            Mask<Real> done =
-                l.active && miss <= Real(0.0) && abs(root - 1.0) <= Real(is_differentiated<Real> ? tolerance : near);
-            if constexpr (is_differentiated<Real>)
-                if (done && !confirmed) {
-                    confirmed = true;
-                    done = false;
+            Real c, miss, S = zero;
+            [[maybe_unused]] Real stretch = zero;
+            Vector<Mask<Real>, K> sets;
+            if constexpr (link == Link::ellipse) {
+                c = zero, miss = zero;
+                for (int k = 0; k < K; ++k) {
+                    const Real w = square(ratio[k]);
+                    S = S + w;
+                    c = c + w * lead[k];
+                    miss = miss + w * lag[k];
                 }
-            const Real change = (b + S * (root - 1.0)) / c;
-            const Real t_next = t + change;
-            t = max(t_next, Real(0.5 * t));
-            for (int k = 0; k < K; ++k)
-                u[k] = min(max(Real(u[k] + (B[k] * change - F[k]) * A[k]), Real(0.5 * u[k])),
-                           Real(far_end(law_of<with_normal>(k))));
-            const Mask<Real> fresh = done && !s.solved;
-            s.d = select(fresh, t / (1.0 + t), s.d);
+                // 1/sqrt(S) = 1, which is linear along rays.
+                stretch = sqrt(S) - 1.0;
+                miss = miss + S * stretch;
+            } else {
+                c = lead[0];
+                miss = lag[0] + (ratio[0] - 1.0);
+                Real most_ratio = ratio[0];
+                sets[0] = Mask<Real>(true);
+                for (int k = 1; k < K; ++k) {
+                    sets[k] = ratio[k] > most_ratio;
+                    most_ratio = max(ratio[k], most_ratio);
+                    c = select(sets[k], lead[k], c);
+                    miss = select(sets[k], lag[k] + (ratio[k] - 1.0), miss);
+                    for (int i = 0; i < k; ++i) sets[i] = sets[i] && !sets[k];
+                }
+            }
+            const Real inverse_c = 1.0 / c, dt = miss * inverse_c;
+            Vector<Real, K> du, bend;
+            Real rest = link == Link::ellipse ? Real(-1.5 * S * square(stretch)) : zero;
+            Mask<Real> done = and_without_branch(l.active, Mask<Real>(abs(dt) <= near * t));
             for (int k = 0; k < K; ++k) {
-                u_solved[k] = select(fresh, u[k], u_solved[k]);
-                s.at[k] = iteration == 0 ? point[k] : choose(fresh, point[k], s.at[k]);
+                const BentSoftened<Real>& at = point[k];
+                du[k] = (B[k] * dt - F[k]) * A[k];
+                done = and_without_branch(done, Mask<Real>(abs(du[k]) <= near * u[k]));
+                const Real f1 = at.slope * du[k], f2 = 0.5 * at.curvature * square(du[k]);
+                const Real z1 = lead[k] * dt - lag[k];
+                Real z2;
+                if (under_pressure && k == K - 1) {
+                    const Real tau1 = rise * dt, tau2 = bow * square(dt);
+                    const Real r1 = 2.0 * tau1, r2 = 2.0 * tau2 + square(tau1);
+                    bend[k] = r[k] * (f1 * dt + t * f2 + r1 * (at.f * dt + t * f1) + r2 * (t * at.f));
+                    z2 = r[k] * (f2 + r1 * f1 + r2 * at.f) * inverse[k] - tau2 - tau1 * z1;
+                } else {
+                    bend[k] = r[k] * (f1 * dt + t * f2);
+                    z2 = r[k] * f2 * inverse[k];
+                }
+                z2 = z2 + follow[k] * A[k] * bend[k];
+                if constexpr (link == Link::ellipse) rest = rest + square(ratio[k]) * (1.5 * square(z1) - z2);
+                else rest = select(sets[k], -z2, rest);
             }
+            // A correction that is not small against its step says nothing.
+            const auto within = [](const Real& correction, const Real& step) LODE_INLINE_LAMBDA {
+                const Real largest = 0.5 * abs(step);
+                return max(min(correction, largest), Real(-largest));
+            };
+            const Real dt2 = rest * inverse_c;
+            done = and_without_branch(done, Mask<Real>(abs(dt2) <= nearer * t));
+            // Lanes that are done stay as they are; a point that is leaves the loop.
+            const auto hold = [&](const auto& old, const auto& now) LODE_INLINE_LAMBDA {
+                if constexpr (!is_batch<Real>) return now;
+                else return choose(s.solved, old, now);
+            };
+            t = hold(t, Real(max(Real(t + (dt + within(dt2, dt))), Real(0.5 * t))));
+            for (int k = 0; k < K; ++k) {
+                const Real du2 = (B[k] * dt2 + bend[k]) * A[k], u_next = u[k] + (du[k] + within(du2, du[k]));
+                done = and_without_branch(done, Mask<Real>(abs(du2) <= nearer * u[k]));
+                const Real far(far_end(law_of<with_normal>(k)));
+                u[k] = hold(u[k], Real(min(max(u_next, Real(0.5 * u[k])), far)));
+                last[k] = iteration == 0 ? point[k] : hold(last[k], point[k]);
+                if constexpr (link == Link::largest) {
+                    if (iteration == 0) s.sets[k] = sets[k];
+                    else s.sets[k] = hold(s.sets[k], sets[k]);
+                }
+            }
+            if constexpr (confirmations > 0)
+                if (done) done = ++confirmed > confirmations;
             s.solved = s.solved || done;
             if (all(s.solved) || iteration == most) {
                 l.solves.count(iteration + 1);
                 break;
             }
+            for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
+            if constexpr (under_pressure) {
+                left = 1.0 / (1.0 + t);
+                s.d = t * left;
+                s.tau = l.pressure.strength(s.d * l.opening);
+            }
         }
-        for (int k = 0; k < K; ++k)
-            s.at[k] = is_differentiated<Real> ? law_of<with_normal>(k).at(u_solved[k])
-                                              : law_of<with_normal>(k).moved(s.at[k], u_solved[k]);
-        if constexpr (has_pressure<Pressure>) s.tau = pressure.strength(s.d * l.strain[0]);
+        [[maybe_unused]] const Real d_strength = s.d;
+        s.d = t / (1.0 + t);
+        for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).moved(last[k], u[k]);
+        if constexpr (under_pressure) {
+            // Where the last step has met a kink of tau(P) it was not the last.
+            const Real change = l.pressure.K * l.opening * (s.d - d_strength);
+            const Real near_tau = s.tau.value + change * (s.tau.slope + 0.5 * change * s.tau.curvature);
+            s.tau = l.pressure.strength(s.d * l.opening);
+            s.solved = s.solved && abs(s.tau.value - near_tau) <= 1e-13 * near_tau;
+            // One point need not wait for it.
+            if constexpr (std::is_same_v<Real, double>) s.tau.value = near_tau;
+        }
         s.solved = s.solved && l.active;
         return s;
     }
@@ -210,7 +310,7 @@ struct LinkedSoftening {
             for (int k = 0; k < K; ++k) {
                 const Real& r = l.brittleness[k];
                 const Softened<Real> s = law_of<with_normal>(k).at_damage(d, r, l.u[k], lanes);
-                const Real strain = s.strain(r), w = square(l.strain[k] / (l.length[k] * strain));
+                const Real strain = s.strain(r), w = square(l.x[k] / strain);
                 sum = sum + w;
                 slope = slope + w * strain * (1.0 + r * s.slope) / (r * max(s.phi(), Real(1e-300)));  // w e'/e
                 x.at[k] = s;
@@ -233,7 +333,7 @@ struct LinkedSoftening {
                 s = {select(ends, s.u, inside.u), select(ends, s.f, inside.f), Real(0.0)};
             }
             end.at[k] = s;
-            sum = sum + square(l.strain[k] / (l.length[k] * s.strain(r)));
+            sum = sum + square(l.x[k] / s.strain(r));
         }
         l.fails = l.active && sum >= Real(1.0);
 
@@ -262,41 +362,67 @@ struct LinkedSoftening {
         Softened<Real> normal, shear;
         Mask<Real> grows, fails;
     };
-    // `n`, `s`: the directions; q, shear: their effective strains; e_old, u_old: of the normal one; `shear_old`: u of
-    // the other under another pressure.
+    // `n`, `s`: the directions; q, shear: their effective strains; 1/e, u: of the normal one; `shear_old`: delta/L
+    // of the other, whose L is that of another pressure.
     template <class Real>
     [[gnu::noinline]] UnderPressure<Real> solve_under_pressure(SofteningDirection<Real> n, SofteningDirection<Real> s,
                                                                CrackPressure<Real> pressure, Real q, Real shear,
-                                                               Real d_old, Real e_old, Real u_old, Real shear_old,
+                                                               Real d_old, Real per_e_old, Real u_old, Real shear_old,
                                                                Mask<Real> enabled, SolveCounter<Real> solves) const {
-        const Real energy = s.energy();
+        const Real energy = s.energy(), inverse_energy = s.inverse_energy;
+        const Real weakness = inverse_energy * s.compliance;  // r = tau^2 weakness
         const Mask<Real> damaged = enabled && d_old > Real(0.0);
-        // Of the shear law at the old damage, with another strength.
-        const auto old_point = [&](const Real& tau, const Real& guess) {
-            s.set_strength(tau, energy);
-            return select(damaged, shear_law.delta_at_damage(d_old, s.brittleness, guess, damaged, solves), Real(0.0));
+        const Real t_old = d_old / max(1.0 - d_old, Real(1e-16));
+        // Of the shear law at the old damage, with the strength at the start and at the end.
+        LinkedUnderPressure<Real> l;
+        l.tau = pressure.strength(d_old * q);
+        const Real per_tau = 1.0 / l.tau.value;
+        const Real r_start = weakness * square(l.tau.value), per_length = l.tau.value * inverse_energy;
+        const auto growth = [&](const Real& u) {
+            // e = delta/d
+            const Real per_strain = select(damaged, d_old, Real(1.0)) / select(damaged, u, r_start);
+            return square(q * per_e_old) + square(shear * per_length * per_strain);
         };
+        // delta is that of another pressure; what it gives is good enough to start from.
+        Real start = select(damaged, shear_old * s.length * per_length, Real(0.0)), value;
+        if (shear_law.is_exponential() && !is_differentiated<Real>) {
+            l.shears = shear_law.bent_at(start);
+            l.u[1] = start;
+            const Real target = t_old * r_start;
+            Real change;
+            start = shear_law.exponential_step(l.shears, target, change);
+            value = growth(start);
+            // Exact where it may decide.
+            const Mask<Real> open =
+                damaged && !(change <= SofteningLaw::exact_step) && !(change <= 0.1 && abs(value - 1.0) > 0.01);
+            if (any(open)) [[unlikely]] {
+                start = shear_law.solve_exponential(target, start, open, solves);
+                value = growth(start);
+            }
+            start = select(damaged, start, Real(0.0));
+        } else {
+            start = select(damaged, shear_law.at_damage(d_old, r_start, start, damaged, solves).u, Real(0.0));
+            value = growth(start);
+            l.shears = shear_law.bent_at(start);
+            l.u[1] = start;
+        }
         UnderPressure<Real> step;
-        const Real start = old_point(pressure.strength(d_old * q).value, shear_old);
-        const Real r_start = s.brittleness;
-        // e = delta/d
-        const Real strain = s.length * select(damaged, start / select(damaged, d_old, Real(1.0)), r_start);
-        step.grows =
-            enabled && square(q / e_old) + square(shear / strain) > Real(1.0 + 2.0 * softening_growth_tolerance);
+        step.grows = enabled && value > Real(1.0 + 2.0 * softening_growth_tolerance);
 
-        Linked<2, Real> l;
-        l.strain = {q, shear};
-        l.length = {n.length, s.length};
-        l.brittleness = {n.brittleness, s.brittleness};
-        l.u = {u_old, start};
-        l.modulus = s.modulus;
+        l.x[0] = q * n.inverse_length;
+        l.brittleness[0] = n.brittleness;
+        l.u[0] = u_old;
+        l.pressure = pressure;
+        l.opening = q;
+        l.weakness = weakness;
+        l.by_strength = shear * inverse_energy;
         l.d = d_old;
         l.active = step.grows;
         l.solves = solves;
-        const Together<2, Real> together = solve_together<true>(l, pressure, energy);
+        const Together<2, Real> together = solve_together<true, Link::ellipse, true, 2, Real>(l);
         // The end of the laws: that of the strongest shear is a lower bound.
         Real d_end = min(normal_law.end_damage(n.brittleness),
-                         shear_law.end_damage(Real(square(pressure.largest_strength) / (s.modulus * energy))));
+                         shear_law.end_damage(Real(square(pressure.largest_strength) * weakness)));
         if (any(step.grows && !(together.solved && together.d < d_end))) {
             s.set_strength(pressure.strength(q).value, energy);
             d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(s.brittleness));
@@ -309,10 +435,20 @@ struct LinkedSoftening {
         step.shear = together.at[1];
         if (any(rest)) [[unlikely]]
             search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step, solves);
-        // Near the answer: Newton's step of the exponential law, whose value at the start is known.
         s.set_strength(step.tau.value, energy);
-        const Real ratio = s.brittleness / r_start;
-        step.u_old = old_point(step.tau.value, start * ratio * (1.0 + start) / (1.0 + start * ratio));
+        if (shear_law.is_exponential() && !is_differentiated<Real>) {
+            const Real near = shear_law.exponential_moved(start, Real(square(step.tau.value * per_tau)));
+            const Real target = t_old * s.brittleness;
+            Real change;
+            step.u_old = shear_law.exponential_step(shear_law.bent_at(near), target, change);
+            solves.count(1);
+            const Mask<Real> open = damaged && !(change <= SofteningLaw::exact_step);
+            if (any(open)) [[unlikely]]
+                step.u_old = shear_law.solve_exponential(target, step.u_old, open, solves);
+        } else {
+            step.u_old = shear_law.at_damage(d_old, s.brittleness, start, damaged, solves).u;
+        }
+        step.u_old = select(damaged, step.u_old, Real(0.0));
         return step;
     }
 
@@ -338,7 +474,7 @@ struct LinkedSoftening {
             x.normal = normal_law.at_damage(d, r_n, Real(0.0), lanes);
             x.shear = shear_law.at_damage(d, r_s, Real(0.0), lanes);
             const Real eps_n = x.normal.strain(r_n), eps_s = x.shear.strain(r_s);
-            const Real w_n = square(q / (n.length * eps_n)), w_s = square(shear / (shears.length * eps_s));
+            const Real w_n = square(q * n.inverse_length / eps_n), w_s = square(shear * shears.inverse_length / eps_s);
             const Real phi_n = max(x.normal.phi(), Real(1e-300)), phi_s = max(x.shear.phi(), Real(1e-300));
             const Real rise_n = eps_n * (1.0 + r_n * x.normal.slope) / (r_n * phi_n);
             const Real rise_s = eps_s * (1.0 + r_s * x.shear.slope) / (r_s * phi_s);
@@ -363,9 +499,26 @@ struct LinkedSoftening {
         take(fails, d_end, end);
         step.fails = fails;
     }
+    template <class M>
+    LODE_INLINE static M select_mask(const M& condition, const M& yes, const M& no) {
+        return (condition && yes) || (!condition && no);
+    }
+    template <class Real>
+    LODE_INLINE static Real choose(const Mask<Real>& mask, const Real& a, const Real& b) {
+        return select(mask, a, b);
+    }
+    LODE_INLINE static Mask<Batch> choose(const Mask<Batch>& mask, const Mask<Batch>& a, const Mask<Batch>& b) {
+        return select_mask(mask, a, b);
+    }
     template <class Real>
     LODE_INLINE static Softened<Real> choose(const Mask<Real>& mask, const Softened<Real>& a, const Softened<Real>& b) {
         return {select(mask, a.u, b.u), select(mask, a.f, b.f), select(mask, a.slope, b.slope)};
+    }
+    template <class Real>
+    LODE_INLINE static BentSoftened<Real> choose(const Mask<Real>& mask, const BentSoftened<Real>& a,
+                                                 const BentSoftened<Real>& b) {
+        return {{select(mask, a.u, b.u), select(mask, a.f, b.f), select(mask, a.slope, b.slope)},
+                select(mask, a.curvature, b.curvature)};
     }
 
   private:

@@ -5,10 +5,10 @@
 
 namespace lode {
 
-// tau(P) with its slope, P = -tr(sigma)/3 positive in compression.
+// tau(P) with its derivatives, P = -tr(sigma)/3 positive in compression.
 template <class Real>
 struct ShearStrength {
-    Real value, slope;
+    Real value, slope, curvature;
 };
 
 class PressureDependence {
@@ -33,7 +33,7 @@ class PressureDependence {
     template <class Real>
     LODE_INLINE ShearStrength<Real> at(const Real& P, const Real& rs, const Real& largest) const {
         const Real zero(0.0);
-        ShearStrength<Real> tau{rs * strength_, zero};
+        ShearStrength<Real> tau{rs * strength_, zero, zero};
         switch (model_) {
             case linear:
                 tau.value = tau.value + slope_ * P;
@@ -46,16 +46,17 @@ class PressureDependence {
                 break;
             }
             case step_exponential: {
-                const Real x = P - p1_, part = exp(-rate_ * positive_part(x));
+                const Real x = P - p1_, part = softening_exp(Real(-rate_ * positive_part(x)));
                 tau.value = tau.value + rise_ * rs * (1.0 - part);
                 tau.slope = select(x > zero, rate_ * rise_ * rs * part, zero);
+                tau.curvature = -rate_ * tau.slope;
                 break;
             }
             case sigmoidal: {
-                // The exponent is kept from overflowing.
-                const Real part = 1.0 / (1.0 + exp(max(min(Real(-rate_ * (P - p1_)), Real(700.0)), Real(-700.0))));
+                const Real part = 1.0 / (1.0 + softening_exp(bounded(Real(-rate_ * (P - p1_)))));
                 tau.value = tau.value + rise_ * rs * part;
                 tau.slope = rate_ * rise_ * rs * part * (1.0 - part);
+                tau.curvature = rate_ * tau.slope * (1.0 - 2.0 * part);
                 break;
             }
             default:
@@ -65,10 +66,18 @@ class PressureDependence {
         const Mask<Real> clamped = tau.value < smallest || tau.value > largest;
         tau.value = max(min(tau.value, largest), smallest);
         tau.slope = select(clamped, zero, tau.slope);
+        tau.curvature = select(clamped, zero, tau.curvature);
         return tau;
     }
 
   private:
+    // An exponential that overflows has no derivative.
+    template <class Real>
+    LODE_INLINE static Real bounded(const Real& exponent) {
+        if constexpr (is_differentiated<Real>) return max(min(exponent, Real(700.0)), Real(-700.0));
+        else return exponent;
+    }
+
     static constexpr double ln2 = 0.693147180559945309417;
 
     int model_;

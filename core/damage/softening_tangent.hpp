@@ -11,7 +11,7 @@ template <AnalysisKind kind>
 struct CrackLinearisation {
     static constexpr int m = crack_directions(kind), n = components(kind);
     Stress<kind, double> stiffness[m];
-    double modulus[m];
+    double compliance[m];  // 1/C_a
     double B[m][m];
     double pressure[m] = {};
 
@@ -30,7 +30,7 @@ struct CrackLinearisation {
     LODE_INLINE void apply(Tangent<kind>& tangent) const {
         double scaled[m][m];
         for (int a = 0; a < m; ++a)
-            for (int b = 0; b < m; ++b) scaled[a][b] = B[a][b] / modulus[b];
+            for (int b = 0; b < m; ++b) scaled[a][b] = B[a][b] * compliance[b];
         for (int j = 0; j < n; ++j) {
             double change[m];
             for (int a = 0; a < m; ++a) {
@@ -61,7 +61,7 @@ struct CrackLinearisation {
                                       (S[1][1] - S[0][0]) * a + S[1][2] * b + S[0][2] * c,
                                       (S[2][2] - S[0][0]) * b + S[1][2] * a - S[0][1] * c};
             double dq[m];
-            for (int k = 0; k < m; ++k) dq[k] = (stiffness[k][j] + turned[k]) / modulus[k];
+            for (int k = 0; k < m; ++k) dq[k] = (stiffness[k][j] + turned[k]) * compliance[k];
 
             Matrix3<double> V;  // W E - E W
             V(0, 0) = -2.0 * (f * a + g * b);

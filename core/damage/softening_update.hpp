@@ -34,7 +34,7 @@ struct CrackUpdate {
         const Vector<Real, m> traction_trial = axes.template tractions<kind>(trial);
         Vector<Real, m> q_old;
         for (int j = 0; j < m; ++j) {
-            const Real compliance = 1.0 / law[j].modulus;
+            const Real& compliance = law[j].compliance;
             q_old[j] = compliance * traction_old[j] + old.strain[j];
             q[j] = compliance * traction_trial[j] + old.strain[j];
         }
@@ -84,7 +84,7 @@ struct CrackUpdate {
     // The linearisation after `run`; `K` as in CrackPressure.
     LODE_INLINE void linearise(const DamageRates<m>& rates, double K, CrackLinearisation<kind>& linear) const {
         for (int j = 0; j < m; ++j) {
-            linear.modulus[j] = law[j].modulus;
+            linear.compliance[j] = law[j].compliance;
             linear.stiffness[j] = stiffness[j];
         }
         if (!failed && !stepped) linear.set_damaged(q, now.damage, rates, K);
