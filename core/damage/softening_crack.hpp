@@ -591,22 +591,19 @@ class SofteningCrack : public LinkedSoftening {
                                [[maybe_unused]] const Pressure& pressure,
                                [[maybe_unused]] const ShearStrength<double>& tau, const Growth<m, double>& g,
                                DamageRates<m>& rates) const {
-        double per_e[m], rise[m], w[m];  // 1/e, e (C + F')/Phi of positive Phi, (q/e)^2
-        for (int j = 0; j < m; ++j) {
-            const bool again = isotropic && j == 2 && shares_shears();
-            const Softened<double>& s = g.at[j];
-            const double r = direction[j].brittleness;
-            per_e[j] = again ? per_e[j - 1] : g.per_e(j, direction[j]);
-            rise[j] = again ? rise[j - 1] : s.strain(r) * (1.0 + r * s.slope) / (r * s.phi());
-            w[j] = square(g.end[j] * per_e[j]);
-        }
         // dd/dq_k = (q_k/e_k^2)/D, D = sum q^2 (C + F')/(e Phi), of the directions first .. last
         const auto group = [&](int first, int last, int to_first, int to_last) {
-            double D = 0.0;
+            double per_e[m] = {}, w[m] = {}, D = 0.0, rise = 0.0;  // 1/e, (q/e)^2; e (C + F')/Phi
             for (int j = first; j <= last; ++j) {
+                const Softened<double>& s = g.at[j];
+                const double r = direction[j].brittleness;
+                const bool again = isotropic && j == 2 && j > first && shares_shears();
+                per_e[j] = again ? per_e[j - 1] : g.per_e(j, direction[j]);
+                if (!again) rise = s.strain(r) * (1.0 + r * s.slope) / (r * s.phi());
+                w[j] = square(g.end[j] * per_e[j]);
                 if (w[j] == 0.0) continue;
-                if (!(g.at[j].phi() > 0.0)) return;
-                D += w[j] * rise[j];
+                if (!(s.phi() > 0.0)) return;
+                D += w[j] * rise;
             }
             if constexpr (has_pressure<Pressure>)
                 if (first == 0 && last > 0) {

@@ -369,7 +369,7 @@ struct LinkedSoftening {
                                                                CrackPressure<Real> pressure, Real q, Real shear,
                                                                Real d_old, Real per_e_old, Real u_old, Real shear_old,
                                                                Mask<Real> enabled, SolveCounter<Real> solves) const {
-        const Real energy = s.energy(), inverse_energy = s.inverse_energy;
+        const Real inverse_energy = s.inverse_energy;
         const Real weakness = inverse_energy * s.compliance;  // r = tau^2 weakness
         const Mask<Real> damaged = enabled && d_old > Real(0.0);
         const Real t_old = d_old / max(1.0 - d_old, Real(1e-16));
@@ -424,8 +424,8 @@ struct LinkedSoftening {
         Real d_end = min(normal_law.end_damage(n.brittleness),
                          shear_law.end_damage(Real(square(pressure.largest_strength) * weakness)));
         if (any(step.grows && !(together.solved && together.d < d_end))) {
-            s.set_strength(pressure.strength(q).value, energy);
-            d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(s.brittleness));
+            const Real r_end = weakness * square(pressure.strength(q).value);
+            d_end = min(normal_law.end_damage(n.brittleness), shear_law.end_damage(r_end));
         }
         const Mask<Real> solved = together.solved && together.d < d_end, rest = step.grows && !solved;
         step.fails = Mask<Real>(false);
@@ -435,10 +435,10 @@ struct LinkedSoftening {
         step.shear = together.at[1];
         if (any(rest)) [[unlikely]]
             search_under_pressure(n, s, pressure, q, shear, d_end, d_old, rest, step, solves);
-        s.set_strength(step.tau.value, energy);
+        const Real r_now = weakness * square(step.tau.value);
         if (shear_law.is_exponential() && !is_differentiated<Real>) {
             const Real near = shear_law.exponential_moved(start, Real(square(step.tau.value * per_tau)));
-            const Real target = t_old * s.brittleness;
+            const Real target = t_old * r_now;
             Real change;
             step.u_old = shear_law.exponential_step(shear_law.bent_at(near), target, change);
             solves.count(1);
@@ -446,7 +446,7 @@ struct LinkedSoftening {
             if (any(open)) [[unlikely]]
                 step.u_old = shear_law.solve_exponential(target, step.u_old, open, solves);
         } else {
-            step.u_old = shear_law.at_damage(d_old, s.brittleness, start, damaged, solves).u;
+            step.u_old = shear_law.at_damage(d_old, r_now, start, damaged, solves).u;
         }
         step.u_old = select(damaged, step.u_old, Real(0.0));
         return step;
