@@ -34,7 +34,8 @@ ExplicitStep<m, Real> SofteningCrack<isotropic>::explicit_step(Vector<Real, m> q
         e[j] = dir.length * s[j].strain(dir.brittleness);
         t[j] = (g.start[j] - crack.strain[j]) / (dir.length * dir.brittleness * s[j].f);
         x[j] = t[j] + (g.end[j] - g.start[j]) / e[j];
-        if (j == 0) t[0] = positive_part(t[0]), x[0] = positive_part(x[0]);
+        // Where the crack closes the trial traction is zero but for rounding, whose sign says nothing.
+        if (j == 0) t[0] = positive_part(t[0]), x[0] = select(g.end[0] > zero, positive_part(x[0]), zero);
         t[j] = select(g.enabled[j], t[j], zero);
         x[j] = select(g.enabled[j], x[j], zero);
         change[j] = crack.damage[j] * (g.end[j] - g.start[j]);
