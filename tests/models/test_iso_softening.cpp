@@ -448,6 +448,26 @@ TEST(IsoSoftening, ExplicitStepsAreContinuous) {
     EXPECT_GE(damaging, 5);
 }
 
+// METH = 1: where the crack closes its normal traction vanishes but for rounding, and shears alone do the damage.
+TEST(IsoSoftening, ExplicitStepsThatCloseTheCrack) {
+    Numbers props = base(2, 3, {2, 1, 1, 0, 0, 0, 0, 0.01});
+    props.resize(27, 0.0);
+    props[26] = 1;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0.5, 1.0);
+    for (int trial = 0; trial < 300; ++trial) {
+        UmatPoint point = made(solid, props);
+        for (int i = 0; i < 4; ++i) {
+            Numbers d = {2e-4, 1e-5, 0, 1e-4, -1e-4, 0};
+            for (double& x : d) x *= uniform(random) * (i == 3 ? -0.5 : 1.0);
+            point.advance({.dstran = d});
+        }
+        const Answer closed = point.evaluate({.dstran = {-2e-3, 0, 0, 3e-3, 2e-3, 0}});
+        EXPECT_EQ(closed.state[W - 1], point.state(W)) << trial;
+        EXPECT_GT(closed.spd, point.spd()) << trial;
+    }
+}
+
 // --- Energies ---------------------------------------------------------------------------------------------------
 
 struct LawCode {
