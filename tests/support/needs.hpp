@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#define LODE_NEEDS_PRESENT(present, keyword)                                                                        \
-    if (!(present)) {                                                                                               \
-        if (LODE_HAS_ALL_MODELS) FAIL() << keyword << " is missing"; /* every build without -DLODE_MODELS=: CI's */ \
-        /* Only with -DLODE_MODELS=, which left the model out: there is nothing that the test could be run on. */   \
-        GTEST_SKIP() << keyword << " was not chosen with -DLODE_MODELS=";                                           \
-    }                                                                                                               \
+inline void skip_for_want_of(const char* keyword) {
+    // Not a test that does not test: -DLODE_MODELS= has left out the model that it is about. Every other build, CI's
+    // among them, fails below before it comes here.
+    GTEST_SKIP() << keyword << " was not chosen with -DLODE_MODELS=";
+}
+
+#define LODE_NEEDS_PRESENT(present, keyword)                         \
+    if (!(present)) {                                                \
+        if (LODE_HAS_ALL_MODELS) FAIL() << keyword << " is missing"; \
+        return skip_for_want_of(keyword);                            \
+    }                                                                \
     static_assert(true)
