@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
-inline void skip_for_want_of(const char* keyword) {
+#include <string_view>
+
+inline void skip_for_want_of(std::string_view keyword) {
     // Not a test that does not test: -DLODE_MODELS= has left out the model that it is about. Every other build, CI's
     // among them, fails below before it comes here.
     GTEST_SKIP() << keyword << " was not chosen with -DLODE_MODELS=";
