@@ -194,6 +194,8 @@ class SofteningCrack : public LinkedSoftening {
     struct Growth {
         Vector<Real, m> start, end;               // effective strains, the normal one without its negative part
         Vector<Real, m> d_old, u_old, per_e_old;  // on the surface at the start; 1/e
+        Vector<Real, m> f_old;                    // there, if `knows_f_old`
+        bool knows_f_old = false;
         Vector<Real, m> d;
         Vector<Softened<Real>, m> at;                 // of the laws at the end, or at d_f if they fail
         Vector<Mask<Real>, m> enabled, grows, fails;  // `grows` includes `fails`
@@ -222,6 +224,7 @@ class SofteningCrack : public LinkedSoftening {
     template <int m, class Real>
     LODE_INLINE static void copy_threshold(Growth<m, Real>& g) {
         g.u_old[2] = g.u_old[1];
+        g.f_old[2] = g.f_old[1];
         g.per_e_old[2] = g.per_e_old[1];
         g.grows[2] = g.fails[2] = g.sets[2] = g.grows[1];
         g.at[2] = g.at[1];
@@ -307,11 +310,12 @@ class SofteningCrack : public LinkedSoftening {
         const Real shear_end = shear_law.end_strain(l.brittleness[1]);
         const Mask<Real> fails = opens_fully || (slides && l.x[1] >= shear_end);
         l.active = grows && !fails;
-        const Together<2, Real> together = solve_together<true, Link::largest, false, 2, Real>(l);
+        const Largest<Real> together = solve_largest(l);
+        g.knows_f_old = true;
         const Mask<Real> solved = together.solved && together.d >= max(g.d_old[0], g.d_old[1]);
         // The first direction that fails, or the one that sets the damage.
         const Mask<Real> first = y >= z, y_fails = y * direction[1].inverse_length >= shear_end;
-        g.sets[0] = select_mask(fails, opens_fully, together.sets[0]);
+        g.sets[0] = select_mask(fails, opens_fully, together.first_leads);
         const Mask<Real> shears_set = !g.sets[0];
         if (m == 2 || links_shears()) {
             for (int j = 1; j < m; ++j) g.sets[j] = shears_set;
@@ -321,6 +325,7 @@ class SofteningCrack : public LinkedSoftening {
             g.sets[m - 1] = shears_set && !y_sets;
         }
         for (int j = 0; j < m; ++j) {
+            g.f_old[j] = together.f_start[j > 0 ? 1 : 0];
             g.fails[j] = fails && g.sets[j];
             g.grows[j] = g.fails[j] || l.active;
             g.d[j] = select(l.active, max(min(together.d, Real(1.0)), g.d_old[j]), g.d_old[j]);
@@ -395,8 +400,10 @@ class SofteningCrack : public LinkedSoftening {
                 linked.d = g.d_old[first];
                 linked.solves = g.solves;
                 linked = solve<first == 0>(linked);
+                g.knows_f_old = !is_linear() && count == m;
                 for (int k = 0; k < K; ++k) {
                     const int j = first + k;
+                    g.f_old[j] = linked.f_start[k];
                     g.at[j] = linked.at[k];
                     g.grows[j] = linked.active;
                     g.fails[j] = linked.fails;
@@ -405,6 +412,7 @@ class SofteningCrack : public LinkedSoftening {
             }
         }
         if constexpr (merges) {
+            g.f_old[2] = g.f_old[1];
             g.grows[2] = g.grows[1];
             g.fails[2] = g.fails[1];
             g.at[2] = g.at[1];
@@ -422,6 +430,7 @@ class SofteningCrack : public LinkedSoftening {
             solve_under_pressure(direction[0], direction[1], pressure, g.end[0], shear, g.d_old[0], g.per_e_old[0],
                                  g.u_old[0], g.u_old[1], g.enabled[0], g.solves);
         for (int j = 0; j < m; ++j) {
+            g.f_old[j] = j == 0 ? step.normal_f_old : step.f_old;
             if (j > 0) {
                 direction[j].set_strength(step.tau.value, direction[j].energy());
                 if (j == 1) set_threshold(direction[j], step.u_old, j, g);
@@ -432,6 +441,7 @@ class SofteningCrack : public LinkedSoftening {
             g.at[j] = j == 0 ? step.normal : step.shear;
             g.d[j] = select(step.grows && !step.fails, max(min(step.d, Real(1.0)), g.d_old[j]), g.d[j]);
         }
+        g.knows_f_old = true;
         return step.tau;
     }
     // SURF 3, 4: the largest of the provisional damages holds in all directions; the first failure is that of the
@@ -507,7 +517,11 @@ class SofteningCrack : public LinkedSoftening {
             if (!any(shared && j == 1 ? grows || g.grows[m - 1] : grows)) continue;
             const SofteningDirection<Real>& dir = direction[j];
             const Softened<Real>& s = g.at[j];
-            if (!(shared && j == 2)) released = dir.energy() * (law(j).omega(s) - law(j).omega(g.u_old[j]));
+            if (!(shared && j == 2)) {
+                const Softened<Real> start{g.u_old[j], g.f_old[j], Real(0.0)};
+                const Real omega_old = g.knows_f_old ? law(j).omega(start) : law(j).omega(start.u);
+                released = dir.energy() * (law(j).omega(s) - omega_old);
+            }
             const Real rest = select(g.fails[j], (0.5 * w[j] * s.f) * s.strain(dir.brittleness), Real(0.0));
             const Real change = 0.5 * (w_old[j] + w[j]) * positive_part(released) + dir.energy() * rest;
             crack.dissipated[j] = select(grows, crack.dissipated[j] + change, crack.dissipated[j]);
@@ -597,7 +611,7 @@ class SofteningCrack : public LinkedSoftening {
             for (int j = first; j <= last; ++j) {
                 const Softened<double>& s = g.at[j];
                 const double r = direction[j].brittleness;
-                const bool again = isotropic && j == 2 && j > first && shares_shears();
+                const bool again = isotropic && m == 3 && j == 2 && j > first && shares_shears();
                 per_e[j] = again ? per_e[j - 1] : g.per_e(j, direction[j]);
                 if (!again) rise = s.strain(r) * (1.0 + r * s.slope) / (r * s.phi());
                 w[j] = square(g.end[j] * per_e[j]);
@@ -633,7 +647,7 @@ class SofteningCrack : public LinkedSoftening {
             for (int j = 0; j < m; ++j) {
                 if (!g.sets[j]) continue;
                 const bool pair = j == 1 && m == 3 && links_shears();
-                return group(j, pair ? 2 : j, 0, m - 1);
+                return group(j, pair ? m - 1 : j, 0, m - 1);
             }
             return;
         }
@@ -641,7 +655,7 @@ class SofteningCrack : public LinkedSoftening {
         for (int j = 1; j < m; ++j) {
             if (!g.grows[j]) continue;
             const bool pair = m == 3 && links_shears();
-            const int last = pair ? 2 : j;
+            const int last = pair ? m - 1 : j;
             group(j, last, j, last);
             if constexpr (has_pressure<Pressure>) {
                 const Softened<double>& s = g.at[j];

@@ -159,6 +159,19 @@ class SofteningLaw {
         return {u, f, s.slope + step * (s.curvature + (0.5 * third) * step)};
     }
 
+    // 1/f at u, a guess from another point: exact of laws 1, 3, 4, of second order and positive of the others.
+    template <class Real>
+    LODE_INLINE Real inverse_near(const BentSoftened<Real>& s, const Real& u) const {
+        if (code_ == linear) return 1.0 / (1.0 - 0.5 * u);
+        if (code_ == smooth_step || code_ == cubic) {
+            const Real x = u * (1.0 / end_), rest = 1.0 - x;
+            return 1.0 / ((1.0 + 2.0 * k2_ * x) * (rest * rest));
+        }
+        const Real inverse = 1.0 / s.f, fall = (s.u - u) * (s.slope * inverse);
+        const Real bend = 0.5 * square(u - s.u) * (s.curvature * inverse);
+        return inverse * (1.0 + fall + fall * fall - bend);
+    }
+
     // omega(u) = integral of f - u f/2.
     template <class Real>
     LODE_INLINE Real omega(const Real& u) const {

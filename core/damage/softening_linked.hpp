@@ -20,6 +20,10 @@ struct CrackPressure {
     LODE_INLINE ShearStrength<Real> strength(const Real& opening) const {
         return dependence->at(Real(P0 + K * opening), relative_strength, largest_strength);
     }
+    // No kink of tau(P) is on the way from one strength to another.
+    LODE_INLINE Mask<Real> is_smooth(const ShearStrength<Real>& from, const ShearStrength<Real>& to) const {
+        return dependence->is_smooth(from, to, relative_strength, largest_strength);
+    }
 };
 struct NoPressure {};
 template <class Pressure>
@@ -35,10 +39,10 @@ struct LinkedSoftening {
     bool is_linear() const { return all_linear_; }
     LODE_INLINE const SofteningLaw& law(int j) const { return j == 0 ? normal_law : shear_law; }
 
-    // K linked directions; on return `d`, `at` and `fails`.
+    // K linked directions; on return `d`, `at`, `fails` and, of laws that are not linear, `f_start`: f at u.
     template <int K, class Real>
     struct Linked {
-        Vector<Real, K> x, brittleness, u;  // x = strain/L
+        Vector<Real, K> x, brittleness, u, f_start;  // x = strain/L
         Real d;
         Mask<Real> active, fails;
         Vector<Softened<Real>, K> at;
@@ -108,7 +112,7 @@ struct LinkedSoftening {
         // Beyond the ends of all laws there is nothing to solve.
         Linked<K, Real> open = l;
         open.active = l.active && least < Real(1.0);
-        const Together<K, Real> together = solve_together<with_normal, Link::ellipse, false, K, Real>(open);
+        const Together<K, Real> together = solve_together<with_normal, false, K, Real>(open);
         const Mask<Real> solved = together.solved && together.d < d_end;
         const Mask<Real> rest = l.active && !solved;
         l.fails = Mask<Real>(false);
@@ -119,36 +123,48 @@ struct LinkedSoftening {
             l.active = nested.active || solved;
         }
         l.d = select(solved, together.d, l.d);
+        l.f_start = together.f_start;
         for (int k = 0; k < K; ++k) l.at[k] = any(rest) ? choose(solved, together.at[k], l.at[k]) : together.at[k];
         return l;
     }
 
-    // With t = d/(1 - d) the points of the laws satisfy u = t r f(u). The surface is S = sum (q/e)^2 = 1, or the
-    // largest q/e is 1.
-    enum class Link { ellipse, largest };
+    // Chebyshev's method is Newton's with a correction for the second derivatives along the step: of third order with
+    // the divisions of the second. After a step and a correction of these relative sizes what is left is rounding,
+    // their sequence being geometric. A differentiated number is iterated on: its derivatives are behind the value.
+    static constexpr double small_step = 1e-5, small_correction = 1e-10;
+    static constexpr int most = 12;
+    template <class Real>
+    static constexpr int confirmations = is_differentiated<Real> ? 2 : 0;
+    // A correction that is not small against its step says nothing.
+    template <class Real>
+    LODE_INLINE static Real within(const Real& correction, const Real& step) {
+        const Real largest = 0.5 * abs(step);
+        return max(min(correction, largest), Real(-largest));
+    }
+    // Lanes that are done stay as they are; a point that is leaves the loop.
+    template <class T, class Real>
+    LODE_INLINE static T hold(const Mask<Real>& done, const T& old, const T& now) {
+        if constexpr (is_batch<Real>) return choose(done, old, now);
+        else return now;
+    }
+
+    // The points of the laws satisfy (1 - d) u = d r f(u).
     template <int K, class Real>
     struct Together {
         Real d;
         Vector<Softened<Real>, K> at;
-        Vector<Mask<Real>, K> sets;  // Link::largest: the direction whose q/e is 1
+        Vector<Real, K> f_start;
         ShearStrength<Real> tau;
         Mask<Real> solved;
     };
-    // All equations at once by Chebyshev's method, Newton's with a correction for the second derivatives along the
-    // step: of third order with the divisions of the second.
-    template <bool with_normal, Link link, bool under_pressure, int K, class Real>
+    // These and S = sum (q/e)^2 = 1 at once.
+    template <bool with_normal, bool under_pressure, int K, class Real>
     LODE_INLINE Together<K, Real> solve_together(
         const std::conditional_t<under_pressure, LinkedUnderPressure<Real>, Linked<K, Real>>& l) const {
-        constexpr int most = 12;
-        // After a step and a correction of these relative sizes what is left is rounding, their sequence being
-        // geometric. A differentiated number is iterated on: its derivatives are behind the value.
-        constexpr double near = 1e-5, nearer = 1e-10;
-        constexpr int confirmations = is_differentiated<Real> ? 2 : 0;
         const Real zero(0.0), one(1.0);
         Together<K, Real> s;
         s.solved = !l.active;
         s.d = l.d;
-        Real left = max(one - l.d, Real(1e-16)), t = l.d / left;  // `left`: 1 - d
         Vector<Real, K> u = l.u, r = l.brittleness, x = l.x;
         Vector<BentSoftened<Real>, K> point, last;
         for (int k = 0; k < K; ++k)
@@ -157,140 +173,211 @@ struct LinkedSoftening {
             s.tau = l.tau;
             point[K - 1] = l.shears;
         }
+        for (int k = 0; k < K; ++k) s.f_start[k] = point[k].f;
+        [[maybe_unused]] Real d_strength = s.d;  // at which tau has been found
         int confirmed = 0;
         s.at = {};
         for (int iteration = 0; any(l.active); ++iteration) {
-            [[maybe_unused]] Real rise = zero, bow = zero;  // d ln(tau)/dt, (d2 tau/dt2)/(2 tau)
+            const Real left = one - s.d, scale = s.d * left;  // of steps that are nearly done
             if constexpr (under_pressure) {
-                const Real relative = 1.0 / s.tau.value, by_t = l.pressure.K * l.opening * (left * left);
-                rise = s.tau.slope * relative * by_t;
-                bow = 0.5 * s.tau.curvature * relative * (by_t * by_t) - rise * left;
                 r[K - 1] = l.weakness * (s.tau.value * s.tau.value);
                 x[K - 1] = l.by_strength * s.tau.value;
             }
-            // With u following t, e/q of a direction changes by the fraction z, to first order lead dt - lag.
+            [[maybe_unused]] Real rise = zero, bow = zero;  // d ln(tau)/dd, (d2 tau/dd2)/(2 tau)
+            if constexpr (under_pressure) {
+                const Real relative = 1.0 / s.tau.value, by_d = l.pressure.K * l.opening;
+                rise = s.tau.slope * relative * by_d;
+                bow = 0.5 * s.tau.curvature * relative * (by_d * by_d);
+            }
+            // F = (1 - d) u - d r f, A = du/dF. With u following d, e/q of a direction changes by the fraction z, to
+            // first order lead dd - lag.
             Vector<Real, K> B, A, F, inverse, follow, ratio, lead, lag;
             for (int k = 0; k < K; ++k) {
                 const BentSoftened<Real>& at = point[k];
                 inverse[k] = 1.0 / at.strain(r[k]);
-                A[k] = 1.0 / (1.0 - t * r[k] * at.slope);
-                B[k] = r[k] * at.f;
-                F[k] = u[k] - t * B[k];
-                follow[k] = (1.0 + r[k] * at.slope) * inverse[k];
+                A[k] = 1.0 / (left - s.d * r[k] * at.slope);
+                const Real rf = r[k] * at.f, e_by_u = 1.0 + r[k] * at.slope;
+                B[k] = u[k] + rf;
+                F[k] = u[k] - s.d * B[k];
+                follow[k] = e_by_u * inverse[k];
                 ratio[k] = x[k] * inverse[k];
                 const Real by_u = follow[k] * A[k];
                 lag[k] = by_u * F[k];
                 if (under_pressure && k == K - 1) {
-                    const Real by_tau = rise * (2.0 * B[k] * inverse[k] - 1.0);
-                    B[k] = B[k] * (1.0 + 2.0 * t * rise);
+                    const Real by_tau = rise * (2.0 * rf * inverse[k] - 1.0);
+                    B[k] = B[k] + 2.0 * (s.d * rf) * rise;
                     lead[k] = by_u * B[k] + by_tau;
                 } else {
-                    lead[k] = by_u * B[k];
+                    lead[k] = e_by_u * A[k];
                 }
             }
-            Real c, miss, S = zero;
-            [[maybe_unused]] Real stretch = zero;
-            Vector<Mask<Real>, K> sets;
-            if constexpr (link == Link::ellipse) {
-                c = zero, miss = zero;
-                for (int k = 0; k < K; ++k) {
-                    const Real w = square(ratio[k]);
-                    S = S + w;
-                    c = c + w * lead[k];
-                    miss = miss + w * lag[k];
-                }
-                // 1/sqrt(S) = 1, which is linear along rays.
-                stretch = sqrt(S) - 1.0;
-                miss = miss + S * stretch;
-            } else {
-                c = lead[0];
-                miss = lag[0] + (ratio[0] - 1.0);
-                Real most_ratio = ratio[0];
-                sets[0] = Mask<Real>(true);
-                for (int k = 1; k < K; ++k) {
-                    sets[k] = ratio[k] > most_ratio;
-                    most_ratio = max(ratio[k], most_ratio);
-                    c = select(sets[k], lead[k], c);
-                    miss = select(sets[k], lag[k] + (ratio[k] - 1.0), miss);
-                    for (int i = 0; i < k; ++i) sets[i] = sets[i] && !sets[k];
-                }
+            Real c = zero, miss = zero, S = zero;
+            for (int k = 0; k < K; ++k) {
+                const Real w = square(ratio[k]);
+                S = S + w;
+                c = c + w * lead[k];
+                miss = miss + w * lag[k];
             }
-            const Real inverse_c = 1.0 / c, dt = miss * inverse_c;
+            // 1/sqrt(S) = 1, which is linear along rays.
+            const Real stretch = sqrt(S) - 1.0;
+            miss = miss + S * stretch;
+            const Real inverse_c = 1.0 / c, dd = miss * inverse_c;
             Vector<Real, K> du, bend;
-            Real rest = link == Link::ellipse ? Real(-1.5 * S * square(stretch)) : zero;
-            Mask<Real> done = and_without_branch(l.active, Mask<Real>(abs(dt) <= near * t));
+            Real rest = -1.5 * S * square(stretch);
+            Mask<Real> done = and_without_branch(l.active, Mask<Real>(abs(dd) <= small_step * scale));
             for (int k = 0; k < K; ++k) {
                 const BentSoftened<Real>& at = point[k];
-                du[k] = (B[k] * dt - F[k]) * A[k];
-                done = and_without_branch(done, Mask<Real>(abs(du[k]) <= near * u[k]));
+                du[k] = (B[k] * dd - F[k]) * A[k];
+                done = and_without_branch(done, Mask<Real>(abs(du[k]) <= small_step * u[k]));
                 const Real f1 = at.slope * du[k], f2 = 0.5 * at.curvature * square(du[k]);
-                const Real z1 = lead[k] * dt - lag[k];
+                const Real z1 = lead[k] * dd - lag[k];
                 Real z2;
                 if (under_pressure && k == K - 1) {
-                    const Real tau1 = rise * dt, tau2 = bow * square(dt);
+                    const Real tau1 = rise * dd, tau2 = bow * square(dd);
                     const Real r1 = 2.0 * tau1, r2 = 2.0 * tau2 + square(tau1);
-                    bend[k] = r[k] * (f1 * dt + t * f2 + r1 * (at.f * dt + t * f1) + r2 * (t * at.f));
+                    bend[k] =
+                        dd * du[k] + r[k] * (f1 * dd + s.d * f2 + r1 * (at.f * dd + s.d * f1) + r2 * (s.d * at.f));
                     z2 = r[k] * (f2 + r1 * f1 + r2 * at.f) * inverse[k] - tau2 - tau1 * z1;
                 } else {
-                    bend[k] = r[k] * (f1 * dt + t * f2);
+                    bend[k] = dd * du[k] + r[k] * (f1 * dd + s.d * f2);
                     z2 = r[k] * f2 * inverse[k];
                 }
                 z2 = z2 + follow[k] * A[k] * bend[k];
-                if constexpr (link == Link::ellipse) rest = rest + square(ratio[k]) * (1.5 * square(z1) - z2);
-                else rest = select(sets[k], -z2, rest);
+                rest = rest + square(ratio[k]) * (1.5 * square(z1) - z2);
             }
-            // A correction that is not small against its step says nothing.
-            const auto within = [](const Real& correction, const Real& step) LODE_INLINE_LAMBDA {
-                const Real largest = 0.5 * abs(step);
-                return max(min(correction, largest), Real(-largest));
-            };
-            const Real dt2 = rest * inverse_c;
-            done = and_without_branch(done, Mask<Real>(abs(dt2) <= nearer * t));
-            // Lanes that are done stay as they are; a point that is leaves the loop.
-            const auto hold = [&](const auto& old, const auto& now) LODE_INLINE_LAMBDA {
-                if constexpr (!is_batch<Real>) return now;
-                else return choose(s.solved, old, now);
-            };
-            t = hold(t, Real(max(Real(t + (dt + within(dt2, dt))), Real(0.5 * t))));
+            const Real dd2 = rest * inverse_c;
+            done = and_without_branch(done, Mask<Real>(abs(dd2) <= small_correction * scale));
+            const Real d_next = min(max(Real(s.d + (dd + within(dd2, dd))), Real(0.5 * s.d)), Real(0.5 * (1.0 + s.d)));
+            d_strength = s.d;
+            s.d = hold<Real, Real>(s.solved, s.d, d_next);
             for (int k = 0; k < K; ++k) {
-                const Real du2 = (B[k] * dt2 + bend[k]) * A[k], u_next = u[k] + (du[k] + within(du2, du[k]));
-                done = and_without_branch(done, Mask<Real>(abs(du2) <= nearer * u[k]));
+                const Real du2 = (B[k] * dd2 + bend[k]) * A[k], u_next = u[k] + (du[k] + within(du2, du[k]));
+                done = and_without_branch(done, Mask<Real>(abs(du2) <= small_correction * u[k]));
                 const Real far(far_end(law_of<with_normal>(k)));
-                u[k] = hold(u[k], Real(min(max(u_next, Real(0.5 * u[k])), far)));
-                last[k] = iteration == 0 ? point[k] : hold(last[k], point[k]);
-                if constexpr (link == Link::largest) {
-                    if (iteration == 0) s.sets[k] = sets[k];
-                    else s.sets[k] = hold(s.sets[k], sets[k]);
-                }
+                u[k] = hold<Real, Real>(s.solved, u[k], min(max(u_next, Real(0.5 * u[k])), far));
+                last[k] = iteration == 0 ? point[k] : hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
             }
-            if constexpr (confirmations > 0)
-                if (done) done = ++confirmed > confirmations;
+            if constexpr (0 < confirmations<Real>)
+                if (done) done = ++confirmed > confirmations<Real>;
             s.solved = s.solved || done;
             if (all(s.solved) || iteration == most) {
                 l.solves.count(iteration + 1);
                 break;
             }
             for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
-            if constexpr (under_pressure) {
-                left = 1.0 / (1.0 + t);
-                s.d = t * left;
-                s.tau = l.pressure.strength(s.d * l.opening);
-            }
+            if constexpr (under_pressure) s.tau = l.pressure.strength(s.d * l.opening);
         }
-        [[maybe_unused]] const Real d_strength = s.d;
-        s.d = t / (1.0 + t);
         for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).moved(last[k], u[k]);
         if constexpr (under_pressure) {
             // Where the last step has met a kink of tau(P) it was not the last.
             const Real change = l.pressure.K * l.opening * (s.d - d_strength);
-            const Real near_tau = s.tau.value + change * (s.tau.slope + 0.5 * change * s.tau.curvature);
-            s.tau = l.pressure.strength(s.d * l.opening);
-            s.solved = s.solved && abs(s.tau.value - near_tau) <= 1e-13 * near_tau;
-            // One point need not wait for it.
-            if constexpr (std::is_same_v<Real, double>) s.tau.value = near_tau;
+            ShearStrength<Real> near_tau = s.tau;
+            near_tau.value = s.tau.value + change * (s.tau.slope + 0.5 * change * s.tau.curvature);
+            near_tau.slope = s.tau.slope + change * s.tau.curvature;
+            if (is_differentiated<Real> || any(l.active && !l.pressure.is_smooth(s.tau, near_tau))) {
+                s.tau = l.pressure.strength(s.d * l.opening);
+                s.solved = s.solved && abs(s.tau.value - near_tau.value) <= 1e-13 * near_tau.value;
+            }
+            // What follows need not wait for it.
+            if constexpr (!is_differentiated<Real>) s.tau = near_tau;
         }
         s.solved = s.solved && l.active;
         return s;
+    }
+
+    // The largest of two q/e is 1. The direction that it belongs to leads: its law alone gives its u, and that t. The
+    // other follows in ln t = ln(u/(r f)): where the leading law ends t moves far.
+    template <class Real>
+    struct Largest {
+        Real d;
+        Vector<Softened<Real>, 2> at;
+        Vector<Real, 2> f_start;
+        Mask<Real> first_leads, solved;
+    };
+    template <class Real>
+    LODE_INLINE Largest<Real> solve_largest(const Linked<2, Real>& l) const {
+        // Within rounding of each other either may lead. A step that moves t by more than `nearly` may be that of a law
+        // close to its end, where f is as small as the step.
+        constexpr double rounding = 1e-13, nearly = 1e-3;
+        const Real zero(0.0), one(1.0);
+        Largest<Real> s;
+        s.solved = !l.active;
+        Vector<Real, 2> u = l.u;
+        Vector<BentSoftened<Real>, 2> point{{normal_law.bent_at(u[0]), shear_law.bent_at(u[1])}}, last = point;
+        s.first_leads = l.x[0] * point[1].strain(l.brittleness[1]) >= l.x[1] * point[0].strain(l.brittleness[0]);
+        s.f_start = {{point[0].f, point[1].f}};
+        // Short of the end, where ln t is infinite.
+        const Vector<Real, 2> far{
+            {Real((1.0 - 1e-15) * far_end(normal_law)), Real((1.0 - 1e-15) * far_end(shear_law))}};
+        const Vector<Real, 2> per_r{{1.0 / l.brittleness[0], 1.0 / l.brittleness[1]}};
+        Real t = l.d / max(one - l.d, Real(1e-16));
+        int confirmed = 0;
+        for (int iteration = 0; any(l.active); ++iteration) {
+            const Mask<Real> first = s.first_leads;
+            const auto either = [&first](const auto& a, const auto& b)
+                                    LODE_INLINE_LAMBDA { return choose(first, a, b); };
+            const BentSoftened<Real> lead = either(point[0], point[1]), follow = either(point[1], point[0]);
+            const Real r = either(l.brittleness[0], l.brittleness[1]), x = either(l.x[0], l.x[1]);
+            const Real r_f = either(l.brittleness[1], l.brittleness[0]), x_f = either(l.x[1], l.x[0]);
+
+            // e(u) = q
+            const Real per_rise = 1.0 / (1.0 + r * lead.slope), per_f = 1.0 / follow.f, per_phi = 1.0 / follow.phi();
+            const Real du = (x - lead.strain(r)) * per_rise;
+            const Real du2 = -0.5 * (r * lead.curvature) * (du * du) * per_rise;
+            const Real u_next =
+                min(max(Real(lead.u + (du + within(du2, du))), Real(0.5 * lead.u)), either(far[0], far[1]));
+            const Real t_next =
+                (u_next * either(per_r[0], per_r[1])) *
+                either(normal_law.inverse_near(point[0], u_next), shear_law.inverse_near(point[1], u_next));
+
+            // p = d ln t/d ln u = phi/f, and w what ln t has to change by
+            const Real per_p = follow.f * per_phi,
+                       w = logarithm(Real((r_f * follow.f / max(follow.u, Real(1e-100))) * t_next));
+            const Real fall = follow.u * (follow.slope * per_f);
+            const Real bend = fall * fall - 1.0 - square(follow.u) * (follow.curvature * per_f);
+            const Real step = w * per_p, step2 = -0.5 * bend * square(step) * per_p;
+            Real v_next = follow.u * max(1.0 + (step + within(step2, step)), Real(0.5));
+            const Mask<Real> fresh = !(follow.u > zero);
+            if (any(fresh)) v_next = select(fresh, r_f * t_next / (1.0 + r_f * t_next), v_next);
+            v_next = min(v_next, either(far[1], far[0]));
+            const Real dv = v_next - follow.u;
+            const Real e_next = follow.strain(r_f) + dv * (1.0 + r_f * (follow.slope + 0.5 * dv * follow.curvature));
+            const Mask<Real> overtaken = x_f > (1.0 + rounding) * e_next;
+
+            Mask<Real> done = and_without_branch(l.active, Mask<Real>(abs(du) <= small_step * lead.u));
+            done = and_without_branch(done, Mask<Real>(abs(du2) <= small_correction * lead.u));
+            done = and_without_branch(done, Mask<Real>(max(abs(w), abs(step)) <= Real(small_step)));
+            done = and_without_branch(done, Mask<Real>(abs(step2) <= Real(small_correction)));
+            done = and_without_branch(done, Mask<Real>(abs(t_next - t) <= nearly * t_next));
+            done = and_without_branch(done, Mask<Real>(x_f <= (1.0 + rounding) * e_next));
+            t = hold<Real, Real>(s.solved, t, t_next);
+            u[0] = hold<Real, Real>(s.solved, u[0], either(u_next, v_next));
+            u[1] = hold<Real, Real>(s.solved, u[1], either(v_next, u_next));
+            for (int k = 0; k < 2; ++k) last[k] = hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
+            s.first_leads = select_mask(Mask<Real>(s.solved || !overtaken), first, Mask<Real>(!first));
+            if constexpr (0 < confirmations<Real>)
+                if (done) done = ++confirmed > confirmations<Real>;
+            s.solved = s.solved || done;
+            if (all(s.solved) || iteration == most) {
+                l.solves.count(iteration + 1);
+                break;
+            }
+            point[0] = normal_law.bent_at(u[0]);
+            point[1] = shear_law.bent_at(u[1]);
+        }
+        s.d = t / (1.0 + t);
+        s.at = {{normal_law.moved(last[0], u[0]), shear_law.moved(last[1], u[1])}};
+        s.solved = s.solved && l.active;
+        return s;
+    }
+
+    // ln x, from a series where x is nearly 1.
+    template <class Real>
+    LODE_INLINE static Real logarithm(const Real& x) {
+        const Real y = x - 1.0, series = y * (1.0 - y * (0.5 - y * (1.0 / 3.0 - y * (0.25 - y * 0.2))));
+        const Mask<Real> near_one = abs(y) <= Real(0.2);
+        if (all(near_one)) return series;
+        return select(near_one, series, quick_log(x));
     }
     // Where a law that has no end has fallen below rounding.
     static double far_end(const SofteningLaw& softening) {
@@ -357,7 +444,8 @@ struct LinkedSoftening {
 
     template <class Real>
     struct UnderPressure {
-        Real d, u_old;
+        Real d, u_old, f_old,
+            normal_f_old;  // at the old damage: u, f of the shears at the new strength, f of the other
         ShearStrength<Real> tau;
         Softened<Real> normal, shear;
         Mask<Real> grows, fails;
@@ -372,7 +460,7 @@ struct LinkedSoftening {
         const Real inverse_energy = s.inverse_energy;
         const Real weakness = inverse_energy * s.compliance;  // r = tau^2 weakness
         const Mask<Real> damaged = enabled && d_old > Real(0.0);
-        const Real t_old = d_old / max(1.0 - d_old, Real(1e-16));
+        const Real t_old = d_old / max(1.0 - d_old, Real(1e-16)), damaged_t = select(damaged, t_old, Real(1.0));
         // Of the shear law at the old damage, with the strength at the start and at the end.
         LinkedUnderPressure<Real> l;
         l.tau = pressure.strength(d_old * q);
@@ -419,7 +507,7 @@ struct LinkedSoftening {
         l.d = d_old;
         l.active = step.grows;
         l.solves = solves;
-        const Together<2, Real> together = solve_together<true, Link::ellipse, true, 2, Real>(l);
+        const Together<2, Real> together = solve_together<true, true, 2, Real>(l);
         // The end of the laws: that of the strongest shear is a lower bound.
         Real d_end = min(normal_law.end_damage(n.brittleness),
                          shear_law.end_damage(Real(square(pressure.largest_strength) * weakness)));
@@ -449,6 +537,8 @@ struct LinkedSoftening {
             step.u_old = shear_law.at_damage(d_old, r_now, start, damaged, solves).u;
         }
         step.u_old = select(damaged, step.u_old, Real(0.0));
+        step.f_old = select(damaged, step.u_old / (damaged_t * r_now), Real(1.0));
+        step.normal_f_old = together.f_start[0];
         return step;
     }
 

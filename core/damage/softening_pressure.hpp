@@ -62,7 +62,7 @@ class PressureDependence {
             default:
                 break;
         }
-        const Real smallest = 1e-3 * rs * strength_;
+        const Real smallest = least(rs);
         const Mask<Real> clamped = tau.value < smallest || tau.value > largest;
         tau.value = max(min(tau.value, largest), smallest);
         tau.slope = select(clamped, zero, tau.slope);
@@ -70,7 +70,19 @@ class PressureDependence {
         return tau;
     }
 
+    // A sigmoid has no kinks but where it is clamped.
+    template <class Real>
+    LODE_INLINE Mask<Real> is_smooth(const ShearStrength<Real>& from, const ShearStrength<Real>& to, const Real& rs,
+                                     const Real& largest) const {
+        if (model_ != sigmoidal) return Mask<Real>(false);
+        return from.slope > Real(0.0) && to.value > least(rs) && to.value < largest;
+    }
+
   private:
+    template <class Real>
+    LODE_INLINE Real least(const Real& rs) const {
+        return 1e-3 * rs * strength_;
+    }
     // An exponential that overflows has no derivative.
     template <class Real>
     LODE_INLINE static Real bounded(const Real& exponent) {
