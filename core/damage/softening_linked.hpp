@@ -309,6 +309,7 @@ struct LinkedSoftening {
         // Short of the end, where ln t is infinite.
         const Vector<Real, 2> far{
             {Real((1.0 - 1e-15) * far_end(normal_law)), Real((1.0 - 1e-15) * far_end(shear_law))}};
+        const Vector<Real, 2> bent_from{{Real(double_root_from(normal_law)), Real(double_root_from(shear_law))}};
         const Vector<Real, 2> per_r{{1.0 / l.brittleness[0], 1.0 / l.brittleness[1]}};
         Real t = l.d / max(one - l.d, Real(1e-16));
         int confirmed = 0;
@@ -330,16 +331,21 @@ struct LinkedSoftening {
                 (u_next * either(per_r[0], per_r[1])) *
                 either(normal_law.inverse_near(point[0], u_next), shear_law.inverse_near(point[1], u_next));
 
-            // p = d ln t/d ln u = phi/f, and w what ln t has to change by
-            const Real per_p = follow.f * per_phi,
-                       w = logarithm(Real((r_f * follow.f / max(follow.u, Real(1e-100))) * t_next));
-            const Real fall = follow.u * (follow.slope * per_f);
-            const Real bend = fall * fall - 1.0 - square(follow.u) * (follow.curvature * per_f);
+            // p = d ln t/d ln u = phi/f, and w what ln t has to change by. Near a double root of f, where t is
+            // infinite, 1/sqrt(t) takes the place of ln t.
+            const Real gain = (r_f * follow.f / max(follow.u, Real(1e-100))) * t_next;
+            const Real per_p = follow.f * per_phi, fall = follow.u * (follow.slope * per_f);
+            Real w = logarithm(gain), bend = fall * fall - 1.0 - square(follow.u) * (follow.curvature * per_f);
+            const Mask<Real> near_end = follow.u > either(bent_from[1], bent_from[0]);
+            if (any(near_end)) {
+                w = select(near_end, 2.0 - 2.0 / sqrt(gain), w);
+                bend = select(near_end, bend - 0.5 * square(1.0 - fall), bend);
+            }
             const Real step = w * per_p, step2 = -0.5 * bend * square(step) * per_p;
             Real v_next = follow.u * max(1.0 + (step + within(step2, step)), Real(0.5));
             const Mask<Real> fresh = !(follow.u > zero);
             if (any(fresh)) v_next = select(fresh, r_f * t_next / (1.0 + r_f * t_next), v_next);
-            v_next = min(v_next, either(far[1], far[0]));
+            v_next = min(v_next, 0.1 * follow.u + 0.9 * either(far[1], far[0]));
             const Real dv = v_next - follow.u;
             const Real e_next = follow.strain(r_f) + dv * (1.0 + r_f * (follow.slope + 0.5 * dv * follow.curvature));
             const Mask<Real> overtaken = x_f > (1.0 + rounding) * e_next;
@@ -378,6 +384,10 @@ struct LinkedSoftening {
         const Mask<Real> near_one = abs(y) <= Real(0.2);
         if (all(near_one)) return series;
         return select(near_one, series, quick_log(x));
+    }
+    // From where on the double root of a law is felt.
+    static double double_root_from(const SofteningLaw& softening) {
+        return softening.has_end() && !softening.is_linear() ? 0.3 * softening.end() : HUGE_VAL;
     }
     // Where a law that has no end has fallen below rounding.
     static double far_end(const SofteningLaw& softening) {

@@ -353,6 +353,59 @@ TEST(IsoSoftening, OvoidIsExactForTheEndStrain) {
     }
 }
 
+// SURF 4: both laws are at one damage, and the largest q/e is 1 (5.1). Near the end of a law d/(1 - d) grows by orders
+// of magnitude in an increment, which the law of the other direction has to follow without a safeguard.
+TEST(IsoSoftening, CoupledLawsMeetAtOneDamage) {
+    const auto law = [](int code, double fmin) {
+        const double a1 = code == 4 ? 0.5 : code == 5 ? 2.0 : code == 6 ? 1.5 : 0.0;
+        return SofteningLaw(code, a1, code == 5 ? 0.4 : 0.0, fmin);
+    };
+    const double h = 4.0, E = 20000.0, nu = 0.25, fmin = 1e-6;
+    const double C = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)), G = 0.5 * E / (1.0 + nu);
+    const double sig[] = {5.0, 6.0}, toughness[] = {0.1, 0.3}, modulus[] = {C, G};
+    for (const int first : {2, 3, 4, 5, 6})
+        for (const int second : {2, 3, 4, 5, 6})
+            for (const bool opens : {true, false}) {
+                SCOPED_TRACE("laws " + std::to_string(first) + " and " + std::to_string(second));
+                const SofteningLaw laws[] = {law(first, fmin), law(second, fmin)};
+                const auto a1 = [](int code) { return code == 4 ? 0.5 : code == 5 ? 2.0 : 1.5; };
+                UmatPoint point = made(solid,
+                                       {E, nu, sig[0], sig[1], double(first), toughness[0], double(second),
+                                        toughness[1], 4, 1, 1, a1(first), 0.4, a1(second), 0.4, fmin},
+                                       h);
+                // Open or slid most of the way, then halfway to the end time after time.
+                const int lead = opens ? 0 : 1;
+                const double L = toughness[lead] / (h * sig[lead]), r = sig[lead] / (modulus[lead] * L);
+                const double end = L * laws[lead].end_strain(r);
+                double strain = 0.0;
+                for (int i = 0; i < 24; ++i) {
+                    const double next = i == 0 ? 1.5 * sig[lead] / modulus[lead] : strain + 0.5 * (end - strain);
+                    Numbers dstran(6, 0.0);
+                    dstran[0] = (opens ? 1.0 : 0.05) * (next - strain);
+                    dstran[3] = (opens ? 0.05 : 1.0) * (next - strain);
+                    const Answer a = point.advance({.dstran = dstran, .observe = true});
+                    strain = next;
+                    if (entry(a, STATE) != 1.0 || entry(a, D) == 0.0) continue;
+                    SCOPED_TRACE("increment " + std::to_string(i + 1));
+                    EXPECT_EQ(a.observation.safeguards, 0);
+                    // Law 6 has no second derivative where the first increment starts.
+                    EXPECT_LE(a.observation.iterations, i == 0 ? 12 : 6);
+                    const double d = entry(a, D);
+                    double largest_ratio = 0.0;
+                    for (int j = 0; j < 2; ++j) {
+                        const double delta = entry(a, DELTA + j), length = toughness[j] / (h * sig[j]);
+                        const double brittleness = sig[j] / (modulus[j] * length), u = delta / length;
+                        // Rounding of 1 - d and of u, which f follows.
+                        const Softened<double> s = laws[j].at(u);
+                        EXPECT_NEAR((1.0 - d) * u, d * brittleness * s.f, 1e-14 * u * (1.0 - brittleness * s.slope));
+                        const double q = j == 0 ? entry(a, EC) : std::hypot(entry(a, EC + 1), entry(a, EC + 2));
+                        largest_ratio = std::max(largest_ratio, q / delta);
+                    }
+                    EXPECT_NEAR(largest_ratio, 1.0, 1e-12);
+                }
+            }
+}
+
 // METH = 1 has the errors of that table, which are of first order, in its tractions. (The page does not say how it
 // keeps linked damages together: a tenth.) Energies are off by the same order.
 TEST(IsoSoftening, ExplicitStepsAreOfFirstOrder) {
