@@ -7,11 +7,11 @@
 
 #include "lode/elastic/isotropic_moduli.hpp"
 #include "lode/material/thermal_block.hpp"
-#include "lode/numerics/sensitive.hpp"
 #include "lode/plasticity/drucker_prager_description.hpp"
 #include "lode/plasticity/drucker_prager_plane_stress.hpp"
 #include "lode/plasticity/plastic_strain.hpp"
 #include "lode/plasticity/softening_scale.hpp"
+#include "lode/plasticity/substep_chain.hpp"
 #include "lode/tensor/invariants.hpp"
 
 namespace lode {
@@ -164,7 +164,7 @@ class Kernel {
                 for (int i = 0; i < 3; ++i) tangent.thermal_stress[i] = -3.0 * K * c.thermal_expansion;
             return c.elastic.set_stiffness<kind>(tangent);
         }
-        const auto [by_q, by_p] = cone_return.linearise(end);
+        const auto [by_q, by_p, by_alpha] = cone_return.linearise(end);
         const double to_q = c.thermal.plastic_heat(by_q.heat, by_q.work);
         const double to_p = c.thermal.plastic_heat(by_p.heat, by_p.work);
         Column<n> direction{}, normal{};
@@ -187,6 +187,33 @@ class Kernel {
         for (int i = 0; i < n; ++i) tangent.thermal_stress[i] = i < 3 ? shear * s_trial[i] - mean : shear * s_trial[i];
     }
 
+    // The same after other substeps: s_trial:d(sigma_trial)/(2G) and tr d(sigma_trial)/(3K) stand for s_trial and 1.
+    template <AnalysisKind kind>
+    LODE_INLINE void set_tangent(const Stress<kind, double>& s_trial, const ConeStep<double>& end,
+                                 const Course<kind, double>&, SubstepChain<kind>& chain) const {
+        constexpr int n = components(kind);
+        using Row = typename SubstepChain<kind>::Row;
+        chain.add_strain();
+        if (!end.yields) return;
+        const ConeLinearisation by = cone_return.linearise(end);
+        const Row trace = chain.stress[0] + chain.stress[1] + chain.stress[2];
+        Row contraction = s_trial[0] * chain.stress[0];
+        for (int i = 1; i < n; ++i) contraction += (i < 3 ? s_trial[i] : 2.0 * s_trial[i]) * chain.stress[i];
+        const Row shear = (0.5 / c.elastic.shear) * contraction, volume = (1.0 / (3.0 * c.elastic.bulk)) * trace;
+        const auto answer = [&](auto slope) LODE_INLINE_LAMBDA {
+            return slope(by.by_q) * shear - slope(by.by_p) * volume + slope(by.by_alpha) * chain.alpha;
+        };
+        const double theta = 1.0 - end.loss;
+        const Row along = end.inverse_q * answer([](const ConeSlopes& d) { return d.shape; });
+        const Row mean = (theta / 3.0) * trace + answer([](const ConeSlopes& d) { return d.p; });
+        chain.heat += answer([this](const ConeSlopes& d) { return c.thermal.plastic_heat(d.heat, d.work); });
+        chain.alpha = answer([](const ConeSlopes& d) { return d.alpha; });
+        for (int i = 0; i < n; ++i) {
+            chain.stress[i] = theta * chain.stress[i] + s_trial[i] * along;
+            if (i < 3) chain.stress[i] -= mean;
+        }
+    }
+
     // One backward Euler step of plane stress.
     template <class Real, class T>
     LODE_INLINE void integrate(Stress<AnalysisKind::plane_stress, Real>& stress,
@@ -197,7 +224,7 @@ class Kernel {
         const Real S = stress[0] + stress[1], D = stress[1] - stress[0], tau = stress[2];
         const Real T_trial = 0.25 * (D * D) + tau * tau;
         const PlaneStep<Real> end = plane_return(S, T_trial, course.alpha, course.scale, course.cohesion, solves);
-        if constexpr (wants_tangent<T>) set_plane_tangent(S, D, tau, T_trial, end, course, tangent);
+        if constexpr (wants_tangent<T>) set_plane_tangent({S, D, tau, T_trial}, end, course, tangent);
 
         const Real inverse_b = 1.0 / end.b, share = end.t * inverse_b;
         const Real sum = end.t * end.S, difference = share * D;
@@ -226,78 +253,86 @@ class Kernel {
         course.region = select(end.yields, Real(1.0), Real(0.0));
     }
 
-    // The chain rule from strain to S, D, tau, T and back, column by column.
-    LODE_INLINE void set_plane_tangent(double S, double D, double tau, double T, const PlaneStep<double>& end,
+    struct PlaneTrial {
+        double S, D, tau, T;
+    };
+    LODE_INLINE void set_plane_tangent(const PlaneTrial& trial, const PlaneStep<double>& end,
                                        Course<AnalysisKind::plane_stress, double>& course,
                                        Tangent<AnalysisKind::plane_stress>& tangent) const {
-        const double G = c.elastic.shear, sum_stiffness = c.elastic.plane_normal + c.elastic.plane_coupling;
-        const double lateral = c.elastic.poisson / c.elastic.young;
-        for (int j = 0; j < 3; ++j) {
-            const double dS = j < 2 ? sum_stiffness : 0.0;
-            const double dD = j == 0 ? -2.0 * G : j == 1 ? 2.0 * G : 0.0, dtau = j == 2 ? G : 0.0;
-            const PlaneSlopes d =
-                plane_return.slopes(end, S, T, course.alpha, course.scale, dS, 0.5 * D * dD + 2.0 * tau * dtau);
-            const double share = end.t / end.b;
-            const double difference = share * dD + d.share * D;
-            tangent(0, j) = 0.5 * (d.sum - difference);
-            tangent(1, j) = 0.5 * (d.sum + difference);
-            tangent(2, j) = share * dtau + d.share * tau;
-            course.heat_by_strain[j] = c.thermal.plastic_heat(d.heat, d.work);
-            course.thickness_by_strain[j] = d.thickness - lateral * d.sum;
-        }
+        SubstepChain<AnalysisKind::plane_stress> chain;
+        begin(chain, 1.0);
+        set_plane_tangent(trial, end, course, chain);
+        finish(chain, course, tangent);
+    }
+    // The chain rule from strain to S, D, tau, T and back.
+    LODE_INLINE void set_plane_tangent(const PlaneTrial& trial, const PlaneStep<double>& end,
+                                       const Course<AnalysisKind::plane_stress, double>& course,
+                                       SubstepChain<AnalysisKind::plane_stress>& chain) const {
+        using Row = SubstepChain<AnalysisKind::plane_stress>::Row;
+        chain.add_strain();
+        if (!end.yields) return;
+        const PlaneLinearisation by = plane_return.linearise(end, trial.S, trial.T, course.alpha, course.scale);
+        const Row dS = chain.stress[0] + chain.stress[1], dD = chain.stress[1] - chain.stress[0];
+        const Row dT = (0.5 * trial.D) * dD + (2.0 * trial.tau) * chain.stress[2];
+        const auto answer = [&](auto slope) LODE_INLINE_LAMBDA {
+            return slope(by.by_S) * dS + slope(by.by_T) * dT + slope(by.by_alpha) * chain.alpha;
+        };
+        const Row sum = answer([](const PlaneSlopes& d) { return d.sum; });
+        const Row dshare = answer([](const PlaneSlopes& d) { return d.share; });
+        chain.heat += answer([this](const PlaneSlopes& d) { return c.thermal.plastic_heat(d.heat, d.work); });
+        chain.thickness += answer([](const PlaneSlopes& d) { return d.thickness; });
+        chain.alpha = answer([](const PlaneSlopes& d) { return d.alpha; });
+        const double share = end.t / end.b;
+        const Row difference = share * dD + trial.D * dshare;
+        chain.stress[0] = 0.5 * (sum - difference);
+        chain.stress[1] = 0.5 * (sum + difference);
+        chain.stress[2] = share * chain.stress[2] + trial.tau * dshare;
+    }
+
+    template <AnalysisKind kind>
+    LODE_INLINE void begin(SubstepChain<kind>& chain, double share) const {
+        constexpr int normals = normal_components(kind);
+        const double coupling = share * c.elastic.coupling_stiffness<kind>();
+        const double normal = share * c.elastic.normal_stiffness<kind>();
+        for (int i = 0; i < components(kind); ++i)
+            for (int j = 0; j < components(kind); ++j)
+                if (i < normals && j < normals) chain.elastic[i][j] = i == j ? normal : coupling;
+                else if (i == j) chain.elastic[i][i] = share * c.elastic.shear;
+    }
+    template <AnalysisKind kind>
+    LODE_INLINE void finish(const SubstepChain<kind>& chain, Course<kind, double>& course,
+                            Tangent<kind>& tangent) const {
+        chain.store(tangent);
         set_thermal_stress(tangent);
+        for (int j = 0; j < components(kind); ++j) course.heat_by_strain[j] = chain.heat[j];
+        if constexpr (kind == AnalysisKind::plane_stress) {
+            const double lateral = c.elastic.poisson / c.elastic.young;
+            for (int j = 0; j < 3; ++j)
+                course.thickness_by_strain[j] = chain.thickness[j] - lateral * (tangent(0, j) + tangent(1, j));
+        }
     }
 
     // METHOD 2.
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE void take_substeps(Course<kind, Real>& course, const SolveCounter<Real>& solves) const {
-        NoTangent none;
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void take_substeps(Course<kind, Real>& course, T& tangent, const SolveCounter<Real>& solves) const {
         const Strain<kind, Real> whole = course.strain;
         course.strain = Real(1.0 / c.substeps) * course.strain;
         solves.count_substeps(c.substeps);
-        for (int k = 0; k < c.substeps; ++k) integrate(course.stress, course, none, solves);
+        for (int k = 0; k < c.substeps; ++k) integrate(course.stress, course, tangent, solves);
         course.strain = whole;
     }
-    template <AnalysisKind kind, class Real>
-    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, NoTangent&,
+    template <AnalysisKind kind, class Real, class T>
+    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, T& tangent,
                                                      SolveCounter<Real> solves) const {
         course.stress = stress;
-        take_substeps(course, solves);
-        return course;
-    }
-    // With a tangent: the same substeps on numbers that carry their derivatives.
-    template <AnalysisKind kind>
-    [[gnu::noinline]] Course<kind, double> in_substeps(Stress<kind, double> stress, Course<kind, double> course,
-                                                       Tangent<kind>& tangent, SolveCounter<double> solves) const {
-        constexpr int n = components(kind);
-        Course<kind, Sensitive> sensitive;
-        for (int i = 0; i < n; ++i) {
-            sensitive.strain[i] = Sensitive::variable(course.strain[i], i);
-            sensitive.stress[i] = stress[i];
+        if constexpr (wants_tangent<T>) {
+            SubstepChain<kind> chain;
+            begin(chain, 1.0 / c.substeps);
+            take_substeps(course, chain, solves);
+            finish(chain, course, tangent);
+        } else {
+            take_substeps(course, tangent, solves);
         }
-        sensitive.keeps_plastic_strain = course.keeps_plastic_strain;
-        sensitive.alpha = course.alpha;
-        sensitive.scale = course.scale;
-        sensitive.cohesion = {course.cohesion.value, course.cohesion.slope, course.cohesion.curvature};
-        take_substeps(sensitive, SolveCounter<Sensitive>(solves));
-        const Sensitive heat = c.thermal.plastic_heat(sensitive.heat, sensitive.work);
-        for (int j = 0; j < n; ++j) {
-            for (int i = 0; i < n; ++i) tangent(i, j) = sensitive.stress[i](j);
-            course.heat_by_strain[j] = heat(j);
-            course.thickness_by_strain[j] = sensitive.thickness(j);
-            course.stress[j] = sensitive.stress[j].value;
-        }
-        set_thermal_stress(tangent);
-        course.alpha = sensitive.alpha.value;
-        course.cohesion.value = sensitive.cohesion.value.value;
-        course.work = sensitive.work.value;
-        course.heat = sensitive.heat.value;
-        course.volume = sensitive.volume.value;
-        course.region = sensitive.region.value;
-        course.energy = sensitive.energy.value;
-        course.thickness = sensitive.thickness.value;
-        for (int i = 0; i < components(plastic_strain_layout(kind)); ++i)
-            course.plastic_strain[i] = sensitive.plastic_strain[i].value;
         return course;
     }
 

@@ -19,9 +19,13 @@ struct PlaneStep {
     Real dalpha;
     FlowStress<Real> cohesion;
 };
-// How it answers to the trial state; `share` is t/b.
+// How it answers; `share` is t/b, `alpha` that of the end, `thickness` the plastic strain.
 struct PlaneSlopes {
-    double sum, share, work, heat, thickness;
+    double sum, share, alpha, work, heat, thickness;
+};
+// By S and T of the trial state, and by alpha at the start.
+struct PlaneLinearisation {
+    PlaneSlopes by_S, by_T, by_alpha;
 };
 
 template <class Law>
@@ -107,27 +111,33 @@ class PlaneReturn {
         return positive_part(work(e) - (e.cohesion.value - initial_cohesion_) * e.dalpha);
     }
 
-    // For changes dS and dT of the trial state S, T.
-    LODE_INLINE PlaneSlopes slopes(const PlaneStep<double>& e, double S, double T, double alpha, double scale,
-                                   double dS, double dT) const {
-        if (!e.yields) return {dS, 0.0, 0.0, 0.0, 0.0};
-        const double t = e.t, eta = cone_.eta, eta_bar = cone_.eta_bar;
+    // Of a step that yields.
+    LODE_INLINE PlaneLinearisation linearise(const PlaneStep<double>& e, double S, double T, double alpha,
+                                             double scale) const {
+        const double t = e.t, rest = 1.0 - t, eta = cone_.eta, eta_bar = cone_.eta_bar, slope = e.cohesion.slope;
         const Trial<double> r = at(t, S, T, alpha, scale);
-        // At fixed t, then with it.
-        const double fixed_q = (e.S * dS + 6.0 * dT / (e.b * e.b)) * r.inverse_root;
-        const double fixed_S = dS - 4.0 * eta_bar * (1.0 - t) * fixed_q;
-        const double change = inverse_xi_ * t * (fixed_q + eta / 3.0 * fixed_S) -
-                              e.cohesion.slope * cone_.xi * inverse_a_ * (1.0 - t) * fixed_q;
-        const double dt = -change / r.slope;
-        const double dq = fixed_q + r.q_slope * dt, dS_end = fixed_S + r.S_slope * dt;
-        const double dlambda = inverse_a_ * ((1.0 - t) * dq - e.q * dt);
-        const double sum = t * dS_end + e.S * dt;
-        const double lambda = multiplier(e), hardening = cone_.xi * dlambda;
-        const double work =
-            dlambda * t * (e.q + eta_bar / 3.0 * e.S) + lambda * (t * dq + e.q * dt + eta_bar / 3.0 * sum);
-        const double stored = e.cohesion.value - initial_cohesion_ + e.dalpha * e.cohesion.slope;
-        return {sum, rho_ / (e.b * e.b) * dt, work, heat(e) > 0.0 ? work - stored * hardening : 0.0,
-                eta_bar / 3.0 * dlambda - inverse_a_ / 6.0 * ((1.0 - t) * dS_end - e.S * dt)};
+        const double inverse_slope = 1.0 / r.slope, inverse_b2 = 1.0 / (e.b * e.b);
+        const double lambda = multiplier(e), rise = e.cohesion.value - initial_cohesion_;
+        const bool heats = heat(e) > 0.0;
+        // Given how q~, S~ and alpha at the end answer at fixed t.
+        const auto with_t = [&](double q, double S_end, double at_start) LODE_INLINE_LAMBDA {
+            const double change =
+                inverse_xi_ * t * (q + eta / 3.0 * S_end) - slope * (cone_.xi * inverse_a_ * rest * q + at_start);
+            const double dt = -change * inverse_slope;
+            const double dq = q + r.q_slope * dt, dS_end = S_end + r.S_slope * dt;
+            const double dlambda = inverse_a_ * (rest * dq - e.q * dt), hardening = cone_.xi * dlambda;
+            const double sum = t * dS_end + e.S * dt, dalpha_end = at_start + hardening;
+            const double work =
+                dlambda * t * (e.q + eta_bar / 3.0 * e.S) + lambda * (t * dq + e.q * dt + eta_bar / 3.0 * sum);
+            return PlaneSlopes{sum,
+                               rho_ * inverse_b2 * dt,
+                               dalpha_end,
+                               work,
+                               heats ? work - rise * hardening - e.dalpha * slope * dalpha_end : 0.0,
+                               eta_bar / 3.0 * dlambda - inverse_a_ / 6.0 * (rest * dS_end - e.S * dt)};
+        };
+        const double B = 4.0 * eta_bar * rest, q_S = e.S * r.inverse_root, q_T = 6.0 * inverse_b2 * r.inverse_root;
+        return {with_t(q_S, 1.0 - B * q_S, 0.0), with_t(q_T, -B * q_T, 0.0), with_t(0.0, 0.0, 1.0)};
     }
 
   private:

@@ -29,14 +29,14 @@ struct ConeStep {
 };
 
 // How the end of a step answers to a change of the trial state: s_end = (1 - loss) s_trial + shape s_trial/q_trial, and
-// the rest by name; `heat` is that of the source rule.
+// the rest by name; `heat` is that of the source rule, `alpha` that of the end.
 struct ConeSlopes {
-    double shape, p, work, heat;
+    double shape, p, alpha, work, heat;
 };
 // By the strain: q_trial answers by G s_trial/q_trial, p_trial by -K 1. So the change by s_trial, and that by less
-// volume.
+// volume. And by alpha at the start.
 struct ConeLinearisation {
-    ConeSlopes by_q, by_p;
+    ConeSlopes by_q, by_p, by_alpha;
 };
 
 template <class Law>
@@ -114,19 +114,24 @@ class ConeReturn {
         const double dq = e.at_apex ? 0.0 : G_ * e.inverse_q;
         const double dalpha_q = compliance * inverse_xi_ * dq;
         const double dalpha_p = is_free ? 0.0 : -compliance * eta_over_xi_ * K_;
+        const double dalpha_a = is_free ? 0.0 : -compliance * slope, dcohesion_a = slope + slope * dalpha_a;
         const double dvolume_p = is_free ? -1.0 : cone_.eta_bar * inverse_xi_ * dalpha_p;
         const double dlambda_q = inverse_xi_ * dalpha_q, dlambda_p = e.at_apex ? 0.0 : inverse_xi_ * dalpha_p;
+        const double dlambda_a = e.at_apex ? 0.0 : inverse_xi_ * dalpha_a;
         const double dvolume_q = cone_.eta_bar * dlambda_q;
         const double p_q = K_ * dvolume_q;
         const double p_p = e.at_apex ? -xi_over_eta_ * slope * dalpha_p : K_ + K_ * dvolume_p;
-        const double q_q = dq - G_ * dlambda_q, q_p = -G_ * dlambda_p;
+        const double p_a = e.at_apex ? -xi_over_eta_ * dcohesion_a : K_ * (cone_.eta_bar * dlambda_a);
+        const double q_q = dq - G_ * dlambda_q, q_p = -G_ * dlambda_p, q_a = -G_ * dlambda_a;
         const double work_q = dlambda_q * e.q + e.lambda * q_q - dvolume_q * e.p - e.volume * p_q;
         const double work_p = dlambda_p * e.q + e.lambda * q_p - dvolume_p * e.p - e.volume * p_p;
-        const double stored = e.cohesion.value - initial_cohesion_ + e.dalpha * slope;
+        const double work_a = dlambda_a * e.q + e.lambda * q_a - inverse_K_ * p_a * e.p - e.volume * p_a;
+        const double rise = e.cohesion.value - initial_cohesion_, stored = rise + e.dalpha * slope;
         const bool heats = e.heat(initial_cohesion_) > 0.0;
         // s_trial d(1 - loss) = (loss dq - G dlambda) s_trial/q_trial
-        return {{e.loss * dq - G_ * dlambda_q, p_q, work_q, heats ? work_q - stored * dalpha_q : 0.0},
-                {q_p, p_p, work_p, heats ? work_p - stored * dalpha_p : 0.0}};
+        return {{e.loss * dq - G_ * dlambda_q, p_q, dalpha_q, work_q, heats ? work_q - stored * dalpha_q : 0.0},
+                {q_p, p_p, dalpha_p, work_p, heats ? work_p - stored * dalpha_p : 0.0},
+                {q_a, p_a, 1.0 + dalpha_a, work_a, heats ? work_a - rise * dalpha_a - e.dalpha * dcohesion_a : 0.0}};
     }
 
   private:
