@@ -6,11 +6,11 @@
 #include <variant>
 
 #include "lode/material/thermal_block.hpp"
-#include "lode/numerics/sensitive.hpp"
 #include "lode/plasticity/hill_frame.hpp"
 #include "lode/plasticity/hill_plastic_description.hpp"
 #include "lode/plasticity/hill_return.hpp"
 #include "lode/plasticity/plastic_strain.hpp"
+#include "lode/plasticity/substep_chain.hpp"
 
 namespace lode {
 
@@ -207,14 +207,8 @@ class Kernel {
         }
         std::copy(d.stiffness.m.begin(), d.stiffness.m.end(), tangent.stiffness);
         if (end.yields && c.thermal.makes_plastic_heat()) {
-            // heat mu g; work mu g (1 + R), dR = ((g - 1) - R) dalpha/dalpha
-            const double g = end.g.value, R = hill_return.stored_ratio(course.alpha, end.dalpha, course.g, end.g);
-            const double by_alpha = end.mu * g * (g - 1.0 - R) / end.dalpha;
-            for (int i = 0; i < n; ++i) {
-                const double heat = g * d.mu[i] + end.mu * end.g.slope * d.alpha[i];
-                const double work = heat * (1.0 + R) + by_alpha * d.alpha[i];
-                course.heat_by_strain[i] = c.thermal.plastic_heat(heat, work);
-            }
+            const HeatSlopes heat = heat_slopes(end, course);
+            for (int i = 0; i < n; ++i) course.heat_by_strain[i] = heat.by_mu * d.mu[i] + heat.by_dalpha * d.alpha[i];
         }
         if constexpr (kind == AnalysisKind::plane_stress) {
             const double flow = m.thickness_A[0] * course.stress[0] + m.thickness_A[1] * course.stress[1];
@@ -225,53 +219,97 @@ class Kernel {
         }
     }
 
+    // Of dPhi, by mu, dalpha and alpha at the start.
+    struct HeatSlopes {
+        double by_mu, by_dalpha, by_alpha;
+    };
+    template <AnalysisKind kind>
+    LODE_INLINE HeatSlopes heat_slopes(const HillStep<kind, double>& end, const Course<kind, double>& course) const {
+        // heat mu g; work mu g (1 + R), where R dalpha is the integral of g - 1 from alpha to alpha + dalpha.
+        const double g = end.g.value, R = hill_return.stored_ratio(course.alpha, end.dalpha, course.g, end.g);
+        const double heat = end.mu * end.g.slope, work = heat * (1.0 + R), per_dalpha = end.mu * g / end.dalpha;
+        return {c.thermal.plastic_heat(g, g * (1.0 + R)),
+                c.thermal.plastic_heat(heat, work + per_dalpha * (g - 1.0 - R)),
+                c.thermal.plastic_heat(heat, work + per_dalpha * (g - course.g.value))};
+    }
+
+    // The same after other substeps; the stress of the chain is that of the modes.
+    template <AnalysisKind kind>
+    LODE_INLINE void set_tangent(const HillModes<kind>& m, const HillStep<kind, double>& end,
+                                 const Course<kind, double>& course, SubstepChain<kind>& chain) const {
+        using Row = typename SubstepChain<kind>::Row;
+        chain.add_strain();
+        if (!end.yields) return;
+        const HillResponse<kind> r = hill_return.respond(m, end);
+        Row dmu = r.mu_by_alpha * chain.alpha, ddalpha = r.dalpha_by_alpha * chain.alpha;
+        for (int k = 0; k < m.yielding; ++k) {
+            dmu += r.mu[k] * chain.stress[m.place(k)];
+            ddalpha += r.dalpha[k] * chain.stress[m.place(k)];
+        }
+        for (int k = 0; k < m.yielding; ++k) {
+            Row& z = chain.stress[m.place(k)];
+            z = end.factor[k] * z - r.flow[k] * dmu;
+        }
+        if (c.thermal.makes_plastic_heat()) {
+            const HeatSlopes heat = heat_slopes(end, course);
+            chain.heat += heat.by_mu * dmu + heat.by_dalpha * ddalpha + heat.by_alpha * chain.alpha;
+        }
+        if constexpr (kind == AnalysisKind::plane_stress)
+            chain.thickness += (m.thickness_A[0] * course.stress[0] + m.thickness_A[1] * course.stress[1]) * dmu +
+                               end.mu * (m.thickness_A[0] * normal_stress(m, chain, 0) +
+                                         m.thickness_A[1] * normal_stress(m, chain, 1));
+        chain.alpha += ddalpha;
+    }
+    // Row i of B times the chain's stress.
+    template <AnalysisKind kind>
+    LODE_INLINE static auto normal_stress(const HillModes<kind>& m, const SubstepChain<kind>& chain, int i) {
+        auto row = m.B[i][0] * chain.stress[0];
+        for (int k = 1; k < m.normals; ++k) row += m.B[i][k] * chain.stress[k];
+        return row;
+    }
+    template <AnalysisKind kind>
+    LODE_INLINE void begin(const HillModes<kind>& m, SubstepChain<kind>& chain) const {
+        const double share = 1.0 / c.substeps;
+        for (int k = 0; k < m.normals; ++k)
+            for (int j = 0; j < m.normals; ++j) chain.elastic[k][j] = share * m.B[j][k];
+        for (int i = m.normals; i < m.n; ++i) chain.elastic[i][i] = share * m.shear_C[i - m.normals];
+    }
+    template <AnalysisKind kind>
+    LODE_INLINE void finish(const HillModes<kind>& m, SubstepChain<kind>& chain, Course<kind, double>& course,
+                            Tangent<kind>& tangent) const {
+        typename SubstepChain<kind>::Row normal[m.normals];
+        for (int i = 0; i < m.normals; ++i) normal[i] = normal_stress(m, chain, i);
+        for (int i = 0; i < m.normals; ++i) chain.stress[i] = normal[i];
+        if constexpr (kind == AnalysisKind::plane_stress)
+            chain.thickness += m.thickness_S[0] * normal[0] + m.thickness_S[1] * normal[1];
+        chain.store(tangent);
+        for (int j = 0; j < m.n; ++j) {
+            course.heat_by_strain[j] = chain.heat[j];
+            course.thickness_by_strain[j] = chain.thickness[j];
+        }
+    }
+
     // METHOD 2.
-    template <AnalysisKind kind, class Real>
-    LODE_INLINE void take_substeps(Course<kind, Real>& course, const SolveCounter<Real>& solves) const {
-        NoTangent none;
+    template <AnalysisKind kind, class Real, class T>
+    LODE_INLINE void take_substeps(Course<kind, Real>& course, T& tangent, const SolveCounter<Real>& solves) const {
         const Strain<kind, Real> whole = course.strain;
         course.strain = Real(1.0 / c.substeps) * course.strain;
         solves.count_substeps(c.substeps);
-        for (int k = 0; k < c.substeps; ++k) integrate(course, none, solves);
+        for (int k = 0; k < c.substeps; ++k) integrate(course, tangent, solves);
         course.strain = whole;
     }
-    template <AnalysisKind kind, class Real>
-    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, NoTangent&,
+    template <AnalysisKind kind, class Real, class T>
+    [[gnu::noinline]] Course<kind, Real> in_substeps(Stress<kind, Real> stress, Course<kind, Real> course, T& tangent,
                                                      SolveCounter<Real> solves) const {
         course.stress = stress;
-        take_substeps(course, solves);
-        return course;
-    }
-    // With a tangent: the same substeps on numbers that carry their derivatives.
-    template <AnalysisKind kind>
-    [[gnu::noinline]] Course<kind, double> in_substeps(Stress<kind, double> stress, Course<kind, double> course,
-                                                       Tangent<kind>& tangent, SolveCounter<double> solves) const {
-        constexpr int n = components(kind);
-        Course<kind, Sensitive> sensitive;
-        for (int i = 0; i < n; ++i) {
-            sensitive.strain[i] = Sensitive::variable(course.strain[i], i);
-            sensitive.stress[i] = stress[i];
+        if constexpr (wants_tangent<T>) {
+            SubstepChain<kind> chain;
+            begin(modes<kind>(), chain);
+            take_substeps(course, chain, solves);
+            finish(modes<kind>(), chain, course, tangent);
+        } else {
+            take_substeps(course, tangent, solves);
         }
-        sensitive.alpha = course.alpha;
-        sensitive.g = {course.g.value, course.g.slope, course.g.curvature};
-        take_substeps(sensitive, SolveCounter<Sensitive>(solves));
-        const Sensitive heat = c.thermal.plastic_heat(sensitive.heat, sensitive.work);
-        for (int j = 0; j < n; ++j) {
-            for (int i = 0; i < n; ++i) tangent(i, j) = sensitive.stress[i](j);
-            course.heat_by_strain[j] = heat(j);
-            course.thickness_by_strain[j] = sensitive.thickness(j);
-            course.stress[j] = sensitive.stress[j].value;
-            course.plastic_strain[j] = sensitive.plastic_strain[j].value;
-        }
-        course.alpha = sensitive.alpha.value;
-        course.g.value = sensitive.g.value.value;
-        course.work = sensitive.work.value;
-        course.heat = sensitive.heat.value;
-        course.mu = sensitive.mu.value;
-        course.equivalent = sensitive.equivalent.value;
-        course.energy = sensitive.energy.value;
-        course.plastic_thickness = sensitive.plastic_thickness.value;
-        course.thickness = sensitive.thickness.value;
         return course;
     }
 

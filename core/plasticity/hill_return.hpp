@@ -19,6 +19,14 @@ struct HillStep {
     Real work, heat;  // of the increment: sigma : dep, and mu g
 };
 
+// How it answers to the trial stress in modes, y, and to alpha at the start: dz = factor dy - flow dmu.
+template <AnalysisKind kind>
+struct HillResponse {
+    using Modal = Vector<double, HillModes<kind>::yielding>;
+    Modal flow, mu, dalpha;
+    double mu_by_alpha, dalpha_by_alpha;
+};
+
 // How it answers to the strain: D, d(mu), d(alpha), in material axes.
 template <AnalysisKind kind>
 struct HillSlopes {
@@ -100,31 +108,24 @@ class HillReturn {
         return end;
     }
 
-    // "Consistent tangent": D = M C - N x m/den in modes, where M C = C_0 + B diag(1/(1 + mu d)) B^T, N = M C A sigma
-    // and m = w M C. All rows are combinations of N and X = M C AZA sigma.
+    // "Consistent tangent" in modes, where M C = C_0 + B diag(1/(1 + mu d)) B^T: with F = diag(1/(1 + mu d)) and
+    // N = F C A sigma, w . (F dy - N dmu) = g' (dalpha_mu dmu + dalpha_n).
     template <AnalysisKind kind>
-    LODE_INLINE void linearise(const HillModes<kind>& modes, const HillStep<kind, double>& e,
-                               HillSlopes<kind>& slopes) const {
-        constexpr int n = components(kind), normals = HillModes<kind>::normals;
+    LODE_INLINE HillResponse<kind> respond(const HillModes<kind>& modes, const HillStep<kind, double>& e) const {
+        constexpr int count = HillModes<kind>::yielding;
         const double h = e.g.value, slope = e.g.slope, mu = e.mu;
-        // N, X and A sigma, AZA sigma by modes.
-        Strain<kind, double> A_sigma{};  // W^-T A sigma
-        Stress<kind, double> N{}, X{}, AZA{};
-        for (int k = 0; k < modes.yielding; ++k) {
-            const int i = modes.place(k);
-            const double z = e.z[i], C = k < 2 ? 1.0 : modes.shear_C[k - 2];
-            A_sigma[i] = modes.weight[k] * z;
-            AZA[i] = k == 0   ? 1.5 * (modes.rate_00 * e.z[0] + modes.rate_01 * e.z[1])
+        HillResponse<kind> r;
+        double A_N = 0.0, AZA_N = 0.0;
+        Vector<double, count> A_sigma, AZA;  // by modes
+        for (int k = 0; k < count; ++k) {
+            const double z = e.z[modes.place(k)];
+            A_sigma[k] = modes.weight[k] * z;
+            AZA[k] = k == 0   ? 1.5 * (modes.rate_00 * e.z[0] + modes.rate_01 * e.z[1])
                      : k == 1 ? 1.5 * (modes.rate_01 * e.z[0] + modes.rate_11 * e.z[1])
                               : 1.5 * modes.shear_rate[k - 2] * z;
-            N[i] = C * e.factor[k] * A_sigma[i];
-            X[i] = C * e.factor[k] * AZA[i];
-        }
-        double A_N = 0.0, AZA_N = 0.0;
-        for (int k = 0; k < modes.yielding; ++k) {
-            const int i = modes.place(k);
-            A_N += A_sigma[i] * N[i];
-            AZA_N += AZA[i] * N[i];
+            r.flow[k] = (k < 2 ? e.factor[k] : modes.shear_C[k - 2] * e.factor[k]) * A_sigma[k];
+            A_N += A_sigma[k] * r.flow[k];
+            AZA_N += AZA[k] * r.flow[k];
         }
         // dalpha = along_A A sigma . dsigma + along_AZA AZA sigma . dsigma + by_mu dmu
         const double along_A = squared_ ? 0.0 : mu * inverse_reference_ / h;
@@ -132,12 +133,29 @@ class HillReturn {
         const double by_mu = squared_ ? e.equivalent : h * inverse_reference_;
         const double w_A = 1.0 / h - slope * along_A, w_AZA = -slope * along_AZA;
         const double inverse_den = 1.0 / (w_A * A_N + w_AZA * AZA_N + slope * by_mu);
+        const double more = by_mu - (along_A * A_N + along_AZA * AZA_N);
+        for (int k = 0; k < count; ++k) {
+            r.mu[k] = inverse_den * (e.factor[k] * (w_A * A_sigma[k] + w_AZA * AZA[k]));
+            r.dalpha[k] = e.factor[k] * (along_A * A_sigma[k] + along_AZA * AZA[k]) + more * r.mu[k];
+        }
+        r.mu_by_alpha = -inverse_den * slope;
+        r.dalpha_by_alpha = more * r.mu_by_alpha;
+        return r;
+    }
 
-        Stress<kind, double> dmu, dalpha;
-        const double back = along_A * A_N + along_AZA * AZA_N;
-        for (int i = 0; i < n; ++i) {
-            dmu[i] = inverse_den * (w_A * N[i] + w_AZA * X[i]);
-            dalpha[i] = along_A * N[i] + along_AZA * X[i] + (by_mu - back) * dmu[i];
+    // By the strain, which moves y by B^T.
+    template <AnalysisKind kind>
+    LODE_INLINE void linearise(const HillModes<kind>& modes, const HillStep<kind, double>& e,
+                               HillSlopes<kind>& slopes) const {
+        constexpr int n = components(kind), normals = HillModes<kind>::normals;
+        const HillResponse<kind> r = respond(modes, e);
+        Stress<kind, double> N{}, dmu{}, dalpha{};
+        for (int k = 0; k < modes.yielding; ++k) {
+            const int i = modes.place(k);
+            const double C = k < 2 ? 1.0 : modes.shear_C[k - 2];
+            N[i] = r.flow[k];
+            dmu[i] = C * r.mu[k];
+            dalpha[i] = C * r.dalpha[k];
         }
         const Stress<kind, double> flow = modes.from_modes(N);
         dmu = modes.from_modes(dmu);
