@@ -142,6 +142,7 @@ class Kernel {
         course.alpha = course.alpha + end.dalpha;
         // Entry by entry: a copy of the whole would wait for the stores before it.
         course.cohesion.value = end.cohesion.value, course.cohesion.slope = end.cohesion.slope;
+        course.cohesion.curvature = end.cohesion.curvature;
         course.work = course.work + end.work();
         course.heat = course.heat + end.heat(c.initial_cohesion);
         course.volume = course.volume + end.volume;

@@ -95,6 +95,7 @@ class ConeReturn {
         end.dalpha = select(flows, flow.dalpha, zero);
         end.cohesion.value = select(flows, flow.flow.value, c.value);
         end.cohesion.slope = select(flows, flow.flow.slope, c.slope);
+        end.cohesion.curvature = select(flows, flow.flow.curvature, c.curvature);
         end.lambda = inverse_xi_ * select(end.at_apex, zero, end.dalpha);
         end.inverse_q = 1.0 / select(end.yields && q_trial > zero, q_trial, Real(1.0));
         end.loss = select(end.at_apex, Real(1.0), min(G_ * end.lambda * end.inverse_q, Real(1.0)));

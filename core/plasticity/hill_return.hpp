@@ -103,6 +103,7 @@ class HillReturn {
         const Real slope = last.g.slope + last.g.curvature * more;
         end.g.value = select(end.yields, last.g.value + more * (0.5 * (last.g.slope + slope)), g.value);
         end.g.slope = select(end.yields, slope, g.slope);
+        end.g.curvature = select(end.yields, last.g.curvature, g.curvature);
         end.heat = end.mu * end.g.value;
         end.work = end.heat * (1.0 + select(end.yields, stored_ratio(alpha, end.dalpha, g, end.g), zero));
         return end;

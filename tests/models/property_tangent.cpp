@@ -82,13 +82,15 @@ class Tangent : public testing::TestWithParam<Case> {
         // A check that never left the elastic range would say little.
         EXPECT_TRUE(dissipated || c.has_trait(LODE_ELASTIC | LODE_OPEN_ENERGY)) << "no path was inelastic";
     }
+
+    static void expect_derivative_of_kernel(const Case& c, std::uint64_t seeds);
 };
 
-TEST_P(Tangent, IsTheDerivativeOfTheKernel) {
-    const Case& c = GetParam();
+// In as many states of `c` as `seeds` ask for.
+void Tangent::expect_derivative_of_kernel(const Case& c, std::uint64_t seeds) {
     const DifferentiateFunction kernel = differentiated_kernel(c.model->keyword, c.kind);
     ASSERT_NE(kernel, nullptr);
-    in_many_states(c, 8, [&](const UmatPoint& point, const Load& load, const Answer& answer) {
+    in_many_states(c, seeds, [&](const UmatPoint& point, const Load& load, const Answer& answer) {
         const Differentiated exact = kernel(point, load);
         ASSERT_TRUE(exact.done);
         // The same arithmetic, but compiled differently.
@@ -106,6 +108,35 @@ TEST_P(Tangent, IsTheDerivativeOfTheKernel) {
             << "DDSDDT " << vector_of(answer.ddsddt).transpose() << "\nderivative "
             << exact.stress_by_temperature.transpose();
     });
+}
+
+TEST_P(Tangent, IsTheDerivativeOfTheKernel) { expect_derivative_of_kernel(GetParam(), 8); }
+
+// Whatever the number of substeps of backward Euler, METHOD 2 of plasticity.
+TEST_P(Tangent, OfSubstepsIsTheDerivativeOfTheKernel) {
+    Case c = GetParam();
+    const lode_model& model = *c.model;
+    const auto place_of = [&](std::string_view symbol) {
+        for (int i = 0; i < model.parameter_count; ++i)
+            if (model.parameters[i].symbol == symbol) return static_cast<std::size_t>(i);
+        return std::size_t{0};
+    };
+    const std::size_t method = place_of("METHOD"), substeps = place_of("NSUB");
+    if (model.family != std::string_view("plasticity") || method == 0 || substeps == 0) return;
+    Numbers constants = c.props();
+    for (std::size_t i = constants.size(); i <= std::max(method, substeps); ++i)
+        constants.push_back(model.parameters[i].default_value);
+    constants[method] = 2.0;
+    lode_sample sample = *c.sample;
+    sample.constants = constants.data();
+    sample.constant_count = static_cast<int>(constants.size());
+    c.sample = &sample;
+    for (const double number : {1.0, 2.0, 4.0, 37.0}) {
+        SCOPED_TRACE("NSUB " + std::to_string(number));
+        constants[substeps] = number;
+        expect_derivative_of_kernel(c, 4);
+        if (HasFatalFailure()) return;
+    }
 }
 
 // As a host sees it, without any help of the library: central differences. The step is studied because kinks ask for a

@@ -476,6 +476,59 @@ TEST(DruckerPrager, DerivativesAreThoseOfTheUpdate) {
                 }
 }
 
+// METHOD 2 on a way from elastic states over the cone to the apex: DDSDDE and DRPLDE against central differences,
+// whatever hardens or softens and whichever heat there is. Plane stress has no apex.
+TEST(DruckerPrager, SubstepsToTheApexKnowTheirDerivatives) {
+    const Numbers laws[] = {{0, 0.0}, {1, 50.0}, {2, 20.0, 0.4}, {6, 3.0, 0.5}, {8, 3.0, 30.0, 10.0}, {1, -40.0, 0.5}};
+    const Numbers start = {-0.0041, -0.0037, -0.0043, 0.0, 0.0, 0.0},
+                  path = {0.0123, 0.0091, 0.0067, 0.0083, -0.003, 0.002};
+    for (const auto kind : kinds)
+        for (const Numbers& law : laws)
+            for (const double dilatancy : {0.0, 0.2})
+                for (const double chi : {0.0, 0.9}) {
+                    Numbers props = direct;
+                    props[4] = dilatancy;
+                    props.insert(props.end(), law.begin(), law.end());
+                    props.resize(22, 0.0);
+                    props[17] = chi, props[21] = 10.0;
+                    const auto n = static_cast<std::size_t>(components(kind));
+                    const Numbers strain(path.begin(), path.begin() + components(kind));
+                    const auto loaded = [&](double method, double substeps) {
+                        props[19] = method, props[20] = substeps;
+                        UmatPoint point = make_point(kind, props);
+                        point.celent(1.0);
+                        point.advance({.dstran = Numbers(start.begin(), start.begin() + components(kind))});
+                        return point;
+                    };
+                    UmatPoint increments = loaded(0, 0);
+                    Numbers part = strain;
+                    for (double& e : part) e /= 37;
+                    bool seen[3] = {};
+                    for (int i = 0; i < 37; ++i) {
+                        increments.advance({.dstran = part});
+                        seen[static_cast<int>(increments.state(REGION))] = true;
+                    }
+                    EXPECT_TRUE(seen[0] && seen[1] && seen[2] == (kind != plane_stress)) << kind_name(kind) << law[0];
+                    for (const double substeps : {1.0, 2.0, 4.0, 37.0}) {
+                        SCOPED_TRACE(kind_name(kind) + std::string(", law ") + std::to_string(law[0]) + ", NSUB " +
+                                     std::to_string(substeps));
+                        const UmatPoint point = loaded(2, substeps);
+                        const Answer answer = point.evaluate({.dstran = strain, .dtime = 0.5});
+                        const double h = 1e-7;
+                        for (std::size_t k = 0; k < n; ++k) {
+                            Numbers ahead = strain, back = strain;
+                            ahead[k] += h, back[k] -= h;
+                            const Answer a = point.evaluate({.dstran = ahead, .dtime = 0.5}),
+                                         b = point.evaluate({.dstran = back, .dtime = 0.5});
+                            for (std::size_t i = 0; i < n; ++i)
+                                EXPECT_NEAR(answer.tangent(static_cast<int>(i), static_cast<int>(k)),
+                                            (a.stress[i] - b.stress[i]) / (2 * h), 1e-6 * 1200.0);
+                            EXPECT_NEAR(answer.drplde[k], (a.rpl - b.rpl) / (2 * h), 1e-6 * 300.0);
+                        }
+                    }
+                }
+}
+
 TEST(DruckerPrager, SelfHeating) {
     // TMODE 3: dT = (dPhi - 3K alpha T d eps_v)/RHOCV, acting as thermal strain one increment later.
     Numbers props = hardening;
