@@ -59,13 +59,15 @@ class HillReturn {
         if (!any(end.yields)) return end;
 
         // At x = h_trial/g - 1 times d_max/d_min every mode has come down to g at least. Halley's step from x = 0,
-        // where the law is known, is the better start, unless the curvature there rules (a power law at alpha = 0).
+        // where the law is known, is the better start, unless the curvature there rules: the longer step then, of twice
+        // Newton's (soft modes go on when stiff ones are used up) and far (a power law at alpha = 0).
         const Real far = select(end.yields, excess / g.value, zero);
         const Real upper = far * (1.0 / modes.smallest_ratio);
         const auto first = problem.at_start(g);
         const Real slope2 = first.slope * first.slope, bend = 0.5 * first.value * first.curvature;
         const Mask<Real> mild = abs(bend) < 0.5 * slope2;
-        const Real start = select(mild, -first.value * first.slope / select(mild, slope2 - bend, one), far);
+        const Real halley = -first.value * first.slope / select(end.yields, max(slope2 - bend, 0.5 * slope2), one);
+        const Real start = select(mild, halley, max(halley, far));
         const Real tolerance = max(early * min(far, one), Real(return_tolerance));
         auto root = solve(problem, modes, y, upper, start, tolerance, end.yields);
         solves.count(root);
