@@ -241,24 +241,26 @@ class Kernel {
         chain.add_strain();
         if (!end.yields) return;
         const HillResponse<kind> r = hill_return.respond(m, end);
-        Row dmu = r.mu_by_alpha * chain.alpha, ddalpha = r.dalpha_by_alpha * chain.alpha;
+        Row yield = -r.slope * chain.alpha, dalpha{};
         for (int k = 0; k < m.yielding; ++k) {
-            dmu += r.mu[k] * chain.stress[m.place(k)];
-            ddalpha += r.dalpha[k] * chain.stress[m.place(k)];
+            yield += r.yield[k] * chain.stress[m.place(k)];
+            dalpha += r.hardening[k] * chain.stress[m.place(k)];
         }
+        const Row dmu = r.inverse_den * yield;
+        dalpha += r.by_mu * dmu;
         for (int k = 0; k < m.yielding; ++k) {
             Row& z = chain.stress[m.place(k)];
             z = end.factor[k] * z - r.flow[k] * dmu;
         }
         if (c.thermal.makes_plastic_heat()) {
             const HeatSlopes heat = heat_slopes(end, course);
-            chain.heat += heat.by_mu * dmu + heat.by_dalpha * ddalpha + heat.by_alpha * chain.alpha;
+            chain.heat += heat.by_mu * dmu + heat.by_dalpha * dalpha + heat.by_alpha * chain.alpha;
         }
         if constexpr (kind == AnalysisKind::plane_stress)
             chain.thickness += (m.thickness_A[0] * course.stress[0] + m.thickness_A[1] * course.stress[1]) * dmu +
                                end.mu * (m.thickness_A[0] * normal_stress(m, chain, 0) +
                                          m.thickness_A[1] * normal_stress(m, chain, 1));
-        chain.alpha += ddalpha;
+        chain.alpha += dalpha;
     }
     // Row i of B times the chain's stress.
     template <AnalysisKind kind>

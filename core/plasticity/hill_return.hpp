@@ -19,12 +19,13 @@ struct HillStep {
     Real work, heat;  // of the increment: sigma : dep, and mu g
 };
 
-// How it answers to the trial stress in modes, y, and to alpha at the start: dz = factor dy - flow dmu.
+// How it answers to the trial stress in modes, y, and to alpha at the start, a: den dmu = yield . dy - slope da,
+// dalpha = hardening . dy + by_mu dmu, dz = factor dy - flow dmu.
 template <AnalysisKind kind>
 struct HillResponse {
     using Modal = Vector<double, HillModes<kind>::yielding>;
-    Modal flow, mu, dalpha;
-    double mu_by_alpha, dalpha_by_alpha;
+    Modal flow, yield, hardening;
+    double slope, inverse_den, by_mu;
 };
 
 // How it answers to the strain: D, d(mu), d(alpha), in material axes.
@@ -66,8 +67,8 @@ class HillReturn {
         const auto first = problem.at_start(g);
         const Real slope2 = first.slope * first.slope, bend = 0.5 * first.value * first.curvature;
         const Mask<Real> mild = abs(bend) < 0.5 * slope2;
-        const Real halley = -first.value * first.slope / select(end.yields, max(slope2 - bend, 0.5 * slope2), one);
-        const Real start = select(mild, halley, max(halley, far));
+        const Real divisor = select(mild, slope2 - bend, select(end.yields, 0.5 * slope2, one));
+        const Real step = -first.value * first.slope / divisor, start = select(mild, step, max(step, far));
         const Real tolerance = max(early * min(far, one), Real(return_tolerance));
         auto root = solve(problem, modes, y, upper, start, tolerance, end.yields);
         solves.count(root);
@@ -111,22 +112,23 @@ class HillReturn {
         return end;
     }
 
-    // "Consistent tangent" in modes, where M C = C_0 + B diag(1/(1 + mu d)) B^T: with F = diag(1/(1 + mu d)) and
-    // N = F C A sigma, w . (F dy - N dmu) = g' (dalpha_mu dmu + dalpha_n).
+    // "Consistent tangent" in modes: M = (I + mu C A)^-1 is diagonal there, F = 1/(1 + mu d). With N = M C A sigma and
+    // w of the page, w . (F dy - N dmu) = g' (dalpha_mu dmu + dalpha_n), the last by a change of alpha at the start.
     template <AnalysisKind kind>
     LODE_INLINE HillResponse<kind> respond(const HillModes<kind>& modes, const HillStep<kind, double>& e) const {
         constexpr int count = HillModes<kind>::yielding;
         const double h = e.g.value, slope = e.g.slope, mu = e.mu;
         HillResponse<kind> r;
         double A_N = 0.0, AZA_N = 0.0;
-        Vector<double, count> A_sigma, AZA;  // by modes
+        typename HillResponse<kind>::Modal A_sigma, AZA;
         for (int k = 0; k < count; ++k) {
             const double z = e.z[modes.place(k)];
             A_sigma[k] = modes.weight[k] * z;
             AZA[k] = k == 0   ? 1.5 * (modes.rate_00 * e.z[0] + modes.rate_01 * e.z[1])
                      : k == 1 ? 1.5 * (modes.rate_01 * e.z[0] + modes.rate_11 * e.z[1])
                               : 1.5 * modes.shear_rate[k - 2] * z;
-            r.flow[k] = (k < 2 ? e.factor[k] : modes.shear_C[k - 2] * e.factor[k]) * A_sigma[k];
+            const double C = k < 2 ? 1.0 : modes.shear_C[k - 2];
+            r.flow[k] = C * e.factor[k] * A_sigma[k];
             A_N += A_sigma[k] * r.flow[k];
             AZA_N += AZA[k] * r.flow[k];
         }
@@ -135,18 +137,17 @@ class HillReturn {
         const double along_AZA = squared_ ? mu * (2.0 / 3.0) / e.equivalent : 0.0;
         const double by_mu = squared_ ? e.equivalent : h * inverse_reference_;
         const double w_A = 1.0 / h - slope * along_A, w_AZA = -slope * along_AZA;
-        const double inverse_den = 1.0 / (w_A * A_N + w_AZA * AZA_N + slope * by_mu);
-        const double more = by_mu - (along_A * A_N + along_AZA * AZA_N);
+        r.inverse_den = 1.0 / (w_A * A_N + w_AZA * AZA_N + slope * by_mu);
+        r.by_mu = by_mu - (along_A * A_N + along_AZA * AZA_N);
         for (int k = 0; k < count; ++k) {
-            r.mu[k] = inverse_den * (e.factor[k] * (w_A * A_sigma[k] + w_AZA * AZA[k]));
-            r.dalpha[k] = e.factor[k] * (along_A * A_sigma[k] + along_AZA * AZA[k]) + more * r.mu[k];
+            r.yield[k] = e.factor[k] * (w_A * A_sigma[k] + w_AZA * AZA[k]);
+            r.hardening[k] = e.factor[k] * (along_A * A_sigma[k] + along_AZA * AZA[k]);
         }
-        r.mu_by_alpha = -inverse_den * slope;
-        r.dalpha_by_alpha = more * r.mu_by_alpha;
+        r.slope = slope;
         return r;
     }
 
-    // By the strain, which moves y by B^T.
+    // D = M C - N x dmu, where the strain moves y by B^T: M C = C_0 + B F B^T.
     template <AnalysisKind kind>
     LODE_INLINE void linearise(const HillModes<kind>& modes, const HillStep<kind, double>& e,
                                HillSlopes<kind>& slopes) const {
@@ -157,8 +158,8 @@ class HillReturn {
             const int i = modes.place(k);
             const double C = k < 2 ? 1.0 : modes.shear_C[k - 2];
             N[i] = r.flow[k];
-            dmu[i] = C * r.mu[k];
-            dalpha[i] = C * r.dalpha[k];
+            dmu[i] = r.inverse_den * (C * r.yield[k]);
+            dalpha[i] = C * r.hardening[k] + r.by_mu * dmu[i];
         }
         const Stress<kind, double> flow = modes.from_modes(N);
         dmu = modes.from_modes(dmu);
