@@ -257,6 +257,7 @@ class Kernel {
     struct PlaneTrial {
         double S, D, tau, T;
     };
+    // One step is a chain of one.
     LODE_INLINE void set_plane_tangent(const PlaneTrial& trial, const PlaneStep<double>& end,
                                        Course<AnalysisKind::plane_stress, double>& course,
                                        Tangent<AnalysisKind::plane_stress>& tangent) const {

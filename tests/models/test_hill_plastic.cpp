@@ -166,33 +166,35 @@ TEST(HillPlastic, T8HostHeatsWithThermoelasticity) {
     expect_printed(answer.ddsddt, {-0.120275284878, -0.0588391990431, 0.0360511393876});
 }
 
-// DRPLDE and DRPLDT of the thermoelastic heat against central differences, in turned axes and all kinds.
+// DRPLDE and DRPLDT of the thermoelastic heat against central differences, in turned axes, all kinds and both methods.
 TEST(HillPlastic, HeatFollowsItsDerivatives) {
     for (const auto kind : kinds)
         for (const double style : {1.0, 2.0})
-            for (const double chi : {0.0, 0.9}) {
-                Numbers props = with(set_a, {style, 1, 5, 0, 0, 0, 0, 1e-5, 3e-5, 4e-5});
-                props = with_entry(with_entry(with_entry(props, CHI, chi), TMODE, 1), ROTMODE, 1);
-                props = with_entry(props, ANGZ, 25);
-                UmatPoint point = make_point(kind, props);
-                point.temperature(300.0);
-                const Numbers full = {0.003, 0.008, -0.004, 0.01, -0.005, 0.008};
-                const auto n = static_cast<std::size_t>(point.size());
-                const Load load{.dstran = Numbers(full.begin(), full.begin() + point.size()), .dtime = 0.5, .dtemp = 4};
-                point.advance(load);
-                const Answer answer = point.evaluate(load);
-                for (std::size_t k = 0; k < n; ++k) {
-                    const double h = 1e-7;
-                    Load ahead = load, back = load;
-                    ahead.dstran[k] += h, back.dstran[k] -= h;
-                    const double slope = (point.evaluate(ahead).rpl - point.evaluate(back).rpl) / (2 * h);
-                    EXPECT_NEAR(answer.drplde[k], slope, 2e-7 * largest(answer.drplde)) << kind_name(kind) << k;
+            for (const double chi : {0.0, 0.9})
+                for (const double method : {0.0, 2.0}) {
+                    Numbers props = with(set_a, {style, 1, 5, 0, 0, 0, 0, 1e-5, 3e-5, 4e-5});
+                    props = with_entry(with_entry(with_entry(props, CHI, chi), TMODE, 1), ROTMODE, 1);
+                    props = with_entry(with_entry(with_entry(props, ANGZ, 25), METHOD, method), NSUB, 3);
+                    UmatPoint point = make_point(kind, props);
+                    point.temperature(300.0);
+                    const Numbers full = {0.003, 0.008, -0.004, 0.01, -0.005, 0.008};
+                    const auto n = static_cast<std::size_t>(point.size());
+                    const Load load{
+                        .dstran = Numbers(full.begin(), full.begin() + point.size()), .dtime = 0.5, .dtemp = 4};
+                    point.advance(load);
+                    const Answer answer = point.evaluate(load);
+                    for (std::size_t k = 0; k < n; ++k) {
+                        const double h = 1e-7;
+                        Load ahead = load, back = load;
+                        ahead.dstran[k] += h, back.dstran[k] -= h;
+                        const double slope = (point.evaluate(ahead).rpl - point.evaluate(back).rpl) / (2 * h);
+                        EXPECT_NEAR(answer.drplde[k], slope, 2e-7 * largest(answer.drplde)) << kind_name(kind) << k;
+                    }
+                    Load hot = load, cold = load;
+                    hot.dtemp += 1e-2, cold.dtemp -= 1e-2;
+                    const double slope = (point.evaluate(hot).rpl - point.evaluate(cold).rpl) / 2e-2;
+                    EXPECT_NEAR(answer.drpldt, slope, 1e-6 * std::fabs(slope)) << kind_name(kind);
                 }
-                Load hot = load, cold = load;
-                hot.dtemp += 1e-2, cold.dtemp -= 1e-2;
-                const double slope = (point.evaluate(hot).rpl - point.evaluate(cold).rpl) / 2e-2;
-                EXPECT_NEAR(answer.drpldt, slope, 1e-6 * std::fabs(slope)) << kind_name(kind);
-            }
 }
 
 // Uniaxial and shear yield stresses are those of PROPS.
