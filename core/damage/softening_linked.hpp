@@ -133,8 +133,17 @@ struct LinkedSoftening {
     // their sequence being geometric. A differentiated number is iterated on: its derivatives are behind the value.
     static constexpr double small_step = 1e-5, small_correction = 1e-10;
     static constexpr int most = 12;
+    // True where an iteration is the last; `done` are the lanes for which it is.
     template <class Real>
-    static constexpr int confirmations = is_differentiated<Real> ? 2 : 0;
+    LODE_INLINE static bool ends(Mask<Real> done, int iteration, [[maybe_unused]] int& confirmed, Mask<Real>& solved,
+                                 const SolveCounter<Real>& solves) {
+        if constexpr (is_differentiated<Real>)
+            if (done) done = ++confirmed > 2;
+        solved = solved || done;
+        const bool last = all(solved) || iteration == most;
+        if (last) solves.count(iteration + 1);
+        return last;
+    }
     // A correction that is not small against its step says nothing.
     template <class Real>
     LODE_INLINE static Real within(const Real& correction, const Real& step) {
@@ -257,13 +266,7 @@ struct LinkedSoftening {
                 u[k] = hold<Real, Real>(s.solved, u[k], min(max(u_next, Real(0.5 * u[k])), far));
                 last[k] = iteration == 0 ? point[k] : hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
             }
-            if constexpr (0 < confirmations<Real>)
-                if (done) done = ++confirmed > confirmations<Real>;
-            s.solved = s.solved || done;
-            if (all(s.solved) || iteration == most) {
-                l.solves.count(iteration + 1);
-                break;
-            }
+            if (ends(done, iteration, confirmed, s.solved, l.solves)) break;
             for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
             if constexpr (under_pressure) s.tau = l.pressure.strength(s.d * l.opening);
         }
@@ -361,13 +364,7 @@ struct LinkedSoftening {
             u[1] = hold<Real, Real>(s.solved, u[1], either(v_next, u_next));
             for (int k = 0; k < 2; ++k) last[k] = hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
             s.first_leads = select_mask(Mask<Real>(s.solved || !overtaken), first, Mask<Real>(!first));
-            if constexpr (0 < confirmations<Real>)
-                if (done) done = ++confirmed > confirmations<Real>;
-            s.solved = s.solved || done;
-            if (all(s.solved) || iteration == most) {
-                l.solves.count(iteration + 1);
-                break;
-            }
+            if (ends(done, iteration, confirmed, s.solved, l.solves)) break;
             point[0] = normal_law.bent_at(u[0]);
             point[1] = shear_law.bent_at(u[1]);
         }

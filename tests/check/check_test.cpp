@@ -53,6 +53,12 @@ constexpr double time_limit = 50;
 constexpr double time_limit = 5;
 #endif
 
+RunSettings patient(double seconds = 2.0 * time_limit) {
+    RunSettings settings;
+    settings.seconds = seconds;
+    return settings;
+}
+
 class Zoo : public testing::TestWithParam<Animal> {};
 
 TEST_P(Zoo, IsCaught) {
@@ -61,8 +67,7 @@ TEST_P(Zoo, IsCaught) {
     const Library library(std::string(ZOO_DIRECTORY "/") + animal.library + ".so");
     Subject subject = subject_of(library, animal.library, Kind::solid, animal.friction);
     subject.elastic = animal.elastic;
-    RunSettings settings;
-    settings.seconds = time_limit;
+    RunSettings settings = patient(time_limit);
     settings.only = {animal.check};
     const SubjectReport report = run_checks(subject, settings);
     const auto found = std::any_of(report.results.begin(), report.results.end(), [&](const CheckResult& r) {
@@ -113,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Animals, Zoo, testing::ValuesIn(animals),
 TEST(Race, IsCaughtOneWayOrTheOther) {
     install_utility_handlers();
     const Library library(ZOO_DIRECTORY "/zoo_cpp_global_array.so");
-    RunSettings settings;
+    RunSettings settings = patient();
     settings.only = {"threads"};
     const SubjectReport report = run_checks(subject_of(library, "zoo_cpp", Kind::solid, 0), settings);
     const CheckResult& result = report.results.back();
@@ -126,7 +131,7 @@ TEST(Twins, PassClean) {
         const Library library(std::string(ZOO_DIRECTORY "/") + name + ".so");
         for (const Kind kind : {Kind::solid, Kind::plane_strain})
             for (const double friction : {0.0, 0.05}) {
-                const SubjectReport report = run_checks(subject_of(library, name, kind, friction), {});
+                const SubjectReport report = run_checks(subject_of(library, name, kind, friction), patient());
                 EXPECT_EQ(listed(report), "") << name << ", " << name_of(kind) << ", friction " << friction;
                 EXPECT_GE(count({report}, Verdict::pass), 15);
             }
