@@ -257,7 +257,7 @@ struct LinkedSoftening {
             const Real dd2 = rest * inverse_c;
             done = and_without_branch(done, Mask<Real>(abs(dd2) <= small_correction * scale));
             const Real d_next = min(max(Real(s.d + (dd + within(dd2, dd))), Real(0.5 * s.d)), Real(0.5 * (1.0 + s.d)));
-            d_strength = s.d;
+            if constexpr (under_pressure) d_strength = hold<Real, Real>(s.solved, d_strength, s.d);
             s.d = hold<Real, Real>(s.solved, s.d, d_next);
             for (int k = 0; k < K; ++k) {
                 const Real du2 = (B[k] * dd2 + bend[k]) * A[k], u_next = u[k] + (du[k] + within(du2, du[k]));
@@ -268,7 +268,8 @@ struct LinkedSoftening {
             }
             if (ends(done, iteration, confirmed, s.solved, l.solves)) break;
             for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
-            if constexpr (under_pressure) s.tau = l.pressure.strength(s.d * l.opening);
+            if constexpr (under_pressure)
+                s.tau = hold<ShearStrength<Real>, Real>(s.solved, s.tau, l.pressure.strength(s.d * l.opening));
         }
         for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).moved(last[k], u[k]);
         if constexpr (under_pressure) {
@@ -277,9 +278,10 @@ struct LinkedSoftening {
             ShearStrength<Real> near_tau = s.tau;
             near_tau.value = s.tau.value + change * (s.tau.slope + 0.5 * change * s.tau.curvature);
             near_tau.slope = s.tau.slope + change * s.tau.curvature;
-            if (is_differentiated<Real> || any(l.active && !l.pressure.is_smooth(s.tau, near_tau))) {
+            const Mask<Real> smooth = l.pressure.is_smooth(s.tau, near_tau);
+            if (is_differentiated<Real> || any(l.active && !smooth)) {
                 s.tau = l.pressure.strength(s.d * l.opening);
-                s.solved = s.solved && abs(s.tau.value - near_tau.value) <= 1e-13 * near_tau.value;
+                s.solved = s.solved && (smooth || abs(s.tau.value - near_tau.value) <= 1e-13 * near_tau.value);
             }
             // What follows need not wait for it.
             if constexpr (!is_differentiated<Real>) s.tau = near_tau;
@@ -595,6 +597,11 @@ struct LinkedSoftening {
         take(inside, root.x, root.last);
         take(fails, d_end, end);
         step.fails = fails;
+    }
+    template <class Real>
+    LODE_INLINE static ShearStrength<Real> choose(const Mask<Real>& mask, const ShearStrength<Real>& a,
+                                                  const ShearStrength<Real>& b) {
+        return {select(mask, a.value, b.value), select(mask, a.slope, b.slope), select(mask, a.curvature, b.curvature)};
     }
     template <class M>
     LODE_INLINE static M select_mask(const M& condition, const M& yes, const M& no) {
