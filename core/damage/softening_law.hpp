@@ -141,7 +141,9 @@ class SofteningLaw {
             case cubic:
                 return bent_of<cubic>(u);
             default:
-                return bent(u);
+                // A call would put a batch's registers into memory.
+                if constexpr (is_batch<Real>) return bent_of_exponentials(u);
+                else return bent(u);
         }
     }
     // The point at u, from one within 1e-5 of it. The slope, which batches do not ask for, is less accurate there.
@@ -272,9 +274,13 @@ class SofteningLaw {
         return bent_of<code>(u);
     }
     template <class Real>
-    [[gnu::noinline]] BentSoftened<Real> bent(Real u) const {
+    LODE_INLINE BentSoftened<Real> bent_of_exponentials(const Real& u) const {
         if (code_ == double_exponential) return bent_of<double_exponential>(u);
         return bent_of<stretched_exponential>(u);
+    }
+    template <class Real>
+    [[gnu::noinline]] BentSoftened<Real> bent(Real u) const {
+        return bent_of_exponentials(u);
     }
     template <Code code, class Real>
     LODE_INLINE BentSoftened<Real> bent_of(const Real& u) const {
@@ -293,8 +299,8 @@ class SofteningLaw {
         } else {
             // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
             const Real size = max(u, Real(smallest_)), z = stretched_exponent(size), f = softening_exp(Real(-z));
-            const Real rate = a1_ * z / size;
-            return {{u, f, -rate * f}, rate * f * (rate - (a1_ - 1.0) / size)};
+            const Real inverse = 1.0 / size, rate = (a1_ * z) * inverse;
+            return {{u, f, -rate * f}, rate * f * (rate - (a1_ - 1.0) * inverse)};
         }
     }
     // (k u)^a

@@ -133,6 +133,23 @@ struct LinkedSoftening {
     // their sequence being geometric. A differentiated number is iterated on: its derivatives are behind the value.
     static constexpr double small_step = 1e-5, small_correction = 1e-10;
     static constexpr int most = 12;
+    // Where Newton's method does the rest in one step: within `newton_enough`, by the same sequence.
+    static constexpr double newton_step_size = 0.1, newton_rest = 1e-7, newton_enough = 3e-7;
+    template <class Real>
+    struct Closeness {
+        Mask<Real> done, newton;
+        LODE_INLINE void of(const Real& step, const Real& correction, const Real& scale) {
+            const Real size = abs(step), bend = abs(correction);
+            done = and_without_branch(done, Mask<Real>(size <= small_step * scale));
+            done = and_without_branch(done, Mask<Real>(bend <= small_correction * scale));
+            newton = and_without_branch(newton, Mask<Real>(size <= newton_step_size * scale));
+            newton = and_without_branch(newton, Mask<Real>(bend * bend <= newton_rest * (size * scale)));
+        }
+        LODE_INLINE Mask<Real> near() const {
+            if constexpr (is_differentiated<Real>) return done;
+            else return or_without_branch(done, newton);
+        }
+    };
     // True where an iteration is the last; `done` are the lanes for which it is.
     template <class Real>
     LODE_INLINE static bool ends(Mask<Real> done, int iteration, [[maybe_unused]] int& confirmed, Mask<Real>& solved,
@@ -166,15 +183,70 @@ struct LinkedSoftening {
         ShearStrength<Real> tau;
         Mask<Real> solved;
     };
-    // These and S = sum (q/e)^2 = 1 at once.
+    // These and S = sum (q/e)^2 = 1 linearised: Newton's step from the points of the laws at d, and what its correction
+    // needs.
+    template <int K, class Real>
+    struct NewtonStep {
+        Real dd, inverse_c, S, stretch, rise;  // rise = d ln(tau)/dd
+        Vector<Real, K> du, r, B, A, F, inverse, follow, ratio, lead, lag;
+    };
+    template <bool under_pressure, int K, class Real>
+    LODE_INLINE static NewtonStep<K, Real> newton_step(
+        const std::conditional_t<under_pressure, LinkedUnderPressure<Real>, Linked<K, Real>>& l, const Real& d,
+        [[maybe_unused]] const ShearStrength<Real>& tau, const Vector<BentSoftened<Real>, K>& point) {
+        const Real zero(0.0), left = 1.0 - d;
+        NewtonStep<K, Real> n;
+        n.r = l.brittleness;
+        Vector<Real, K> x = l.x;
+        n.rise = zero;
+        if constexpr (under_pressure) {
+            n.r[K - 1] = l.weakness * (tau.value * tau.value);
+            x[K - 1] = l.by_strength * tau.value;
+            n.rise = tau.slope / tau.value * (l.pressure.K * l.opening);
+        }
+        // F = (1 - d) u - d r f, A = du/dF. With u following d, e/q of a direction changes by the fraction z, to first
+        // order lead dd - lag.
+        Real c = zero, miss = zero, S = zero;
+        for (int k = 0; k < K; ++k) {
+            const BentSoftened<Real>& at = point[k];
+            n.inverse[k] = 1.0 / at.strain(n.r[k]);
+            n.A[k] = 1.0 / (left - d * n.r[k] * at.slope);
+            const Real rf = n.r[k] * at.f, e_by_u = 1.0 + n.r[k] * at.slope;
+            n.B[k] = at.u + rf;
+            n.F[k] = at.u - d * n.B[k];
+            n.follow[k] = e_by_u * n.inverse[k];
+            n.ratio[k] = x[k] * n.inverse[k];
+            const Real by_u = n.follow[k] * n.A[k];
+            n.lag[k] = by_u * n.F[k];
+            if (under_pressure && k == K - 1) {
+                const Real by_tau = n.rise * (2.0 * rf * n.inverse[k] - 1.0);
+                n.B[k] = n.B[k] + 2.0 * (d * rf) * n.rise;
+                n.lead[k] = by_u * n.B[k] + by_tau;
+            } else {
+                n.lead[k] = e_by_u * n.A[k];
+            }
+            const Real w = square(n.ratio[k]);
+            S = S + w;
+            c = c + w * n.lead[k];
+            miss = miss + w * n.lag[k];
+        }
+        // 1/sqrt(S) = 1, which is linear along rays.
+        n.S = S;
+        n.stretch = sqrt(S) - 1.0;
+        n.inverse_c = 1.0 / c;
+        n.dd = (miss + S * n.stretch) * n.inverse_c;
+        for (int k = 0; k < K; ++k) n.du[k] = (n.B[k] * n.dd - n.F[k]) * n.A[k];
+        return n;
+    }
+
+    // d and the points of the laws by Chebyshev's steps and, where these have come near, one of Newton's.
     template <bool with_normal, bool under_pressure, int K, class Real>
     LODE_INLINE Together<K, Real> solve_together(
         const std::conditional_t<under_pressure, LinkedUnderPressure<Real>, Linked<K, Real>>& l) const {
-        const Real zero(0.0), one(1.0);
         Together<K, Real> s;
         s.solved = !l.active;
         s.d = l.d;
-        Vector<Real, K> u = l.u, r = l.brittleness, x = l.x;
+        Vector<Real, K> u = l.u;
         Vector<BentSoftened<Real>, K> point, last;
         for (int k = 0; k < K; ++k)
             if (!(under_pressure && k == K - 1)) point[k] = law_of<with_normal>(k).bent_at(u[k]);
@@ -184,92 +256,71 @@ struct LinkedSoftening {
         }
         for (int k = 0; k < K; ++k) s.f_start[k] = point[k].f;
         [[maybe_unused]] Real d_strength = s.d;  // at which tau has been found
+        Mask<Real> ready = s.solved;             // for Newton
         int confirmed = 0;
         s.at = {};
         for (int iteration = 0; any(l.active); ++iteration) {
-            const Real left = one - s.d, scale = s.d * left;  // of steps that are nearly done
-            if constexpr (under_pressure) {
-                r[K - 1] = l.weakness * (s.tau.value * s.tau.value);
-                x[K - 1] = l.by_strength * s.tau.value;
-            }
-            [[maybe_unused]] Real rise = zero, bow = zero;  // d ln(tau)/dd, (d2 tau/dd2)/(2 tau)
-            if constexpr (under_pressure) {
-                const Real relative = 1.0 / s.tau.value, by_d = l.pressure.K * l.opening;
-                rise = s.tau.slope * relative * by_d;
-                bow = 0.5 * s.tau.curvature * relative * (by_d * by_d);
-            }
-            // F = (1 - d) u - d r f, A = du/dF. With u following d, e/q of a direction changes by the fraction z, to
-            // first order lead dd - lag.
-            Vector<Real, K> B, A, F, inverse, follow, ratio, lead, lag;
+            const NewtonStep<K, Real> n = newton_step<under_pressure, K, Real>(l, s.d, s.tau, point);
+            const Real scale = s.d * (1.0 - s.d);  // of steps that are nearly done
+            [[maybe_unused]] Real bow(0.0);        // (d2 tau/dd2)/(2 tau)
+            if constexpr (under_pressure) bow = 0.5 * s.tau.curvature / s.tau.value * square(l.pressure.K * l.opening);
+            Vector<Real, K> bend;
+            Real rest = -1.5 * n.S * square(n.stretch);
             for (int k = 0; k < K; ++k) {
                 const BentSoftened<Real>& at = point[k];
-                inverse[k] = 1.0 / at.strain(r[k]);
-                A[k] = 1.0 / (left - s.d * r[k] * at.slope);
-                const Real rf = r[k] * at.f, e_by_u = 1.0 + r[k] * at.slope;
-                B[k] = u[k] + rf;
-                F[k] = u[k] - s.d * B[k];
-                follow[k] = e_by_u * inverse[k];
-                ratio[k] = x[k] * inverse[k];
-                const Real by_u = follow[k] * A[k];
-                lag[k] = by_u * F[k];
-                if (under_pressure && k == K - 1) {
-                    const Real by_tau = rise * (2.0 * rf * inverse[k] - 1.0);
-                    B[k] = B[k] + 2.0 * (s.d * rf) * rise;
-                    lead[k] = by_u * B[k] + by_tau;
-                } else {
-                    lead[k] = e_by_u * A[k];
-                }
-            }
-            Real c = zero, miss = zero, S = zero;
-            for (int k = 0; k < K; ++k) {
-                const Real w = square(ratio[k]);
-                S = S + w;
-                c = c + w * lead[k];
-                miss = miss + w * lag[k];
-            }
-            // 1/sqrt(S) = 1, which is linear along rays.
-            const Real stretch = sqrt(S) - 1.0;
-            miss = miss + S * stretch;
-            const Real inverse_c = 1.0 / c, dd = miss * inverse_c;
-            Vector<Real, K> du, bend;
-            Real rest = -1.5 * S * square(stretch);
-            Mask<Real> done = and_without_branch(l.active, Mask<Real>(abs(dd) <= small_step * scale));
-            for (int k = 0; k < K; ++k) {
-                const BentSoftened<Real>& at = point[k];
-                du[k] = (B[k] * dd - F[k]) * A[k];
-                done = and_without_branch(done, Mask<Real>(abs(du[k]) <= small_step * u[k]));
-                const Real f1 = at.slope * du[k], f2 = 0.5 * at.curvature * square(du[k]);
-                const Real z1 = lead[k] * dd - lag[k];
+                const Real &r = n.r[k], &du = n.du[k], &dd = n.dd;
+                const Real f1 = at.slope * du, f2 = 0.5 * at.curvature * square(du);
+                const Real z1 = n.lead[k] * dd - n.lag[k];
                 Real z2;
                 if (under_pressure && k == K - 1) {
-                    const Real tau1 = rise * dd, tau2 = bow * square(dd);
+                    const Real tau1 = n.rise * dd, tau2 = bow * square(dd);
                     const Real r1 = 2.0 * tau1, r2 = 2.0 * tau2 + square(tau1);
-                    bend[k] =
-                        dd * du[k] + r[k] * (f1 * dd + s.d * f2 + r1 * (at.f * dd + s.d * f1) + r2 * (s.d * at.f));
-                    z2 = r[k] * (f2 + r1 * f1 + r2 * at.f) * inverse[k] - tau2 - tau1 * z1;
+                    bend[k] = dd * du + r * (f1 * dd + s.d * f2 + r1 * (at.f * dd + s.d * f1) + r2 * (s.d * at.f));
+                    z2 = r * (f2 + r1 * f1 + r2 * at.f) * n.inverse[k] - tau2 - tau1 * z1;
                 } else {
-                    bend[k] = dd * du[k] + r[k] * (f1 * dd + s.d * f2);
-                    z2 = r[k] * f2 * inverse[k];
+                    bend[k] = dd * du + r * (f1 * dd + s.d * f2);
+                    z2 = r * f2 * n.inverse[k];
                 }
-                z2 = z2 + follow[k] * A[k] * bend[k];
-                rest = rest + square(ratio[k]) * (1.5 * square(z1) - z2);
+                z2 = z2 + n.follow[k] * n.A[k] * bend[k];
+                rest = rest + square(n.ratio[k]) * (1.5 * square(z1) - z2);
             }
-            const Real dd2 = rest * inverse_c;
-            done = and_without_branch(done, Mask<Real>(abs(dd2) <= small_correction * scale));
-            const Real d_next = min(max(Real(s.d + (dd + within(dd2, dd))), Real(0.5 * s.d)), Real(0.5 * (1.0 + s.d)));
-            if constexpr (under_pressure) d_strength = hold<Real, Real>(s.solved, d_strength, s.d);
-            s.d = hold<Real, Real>(s.solved, s.d, d_next);
+            const Real dd2 = rest * n.inverse_c, dd_limited = within(dd2, n.dd);
+            Closeness<Real> close{l.active, l.active};
+            close.of(n.dd, dd2, scale);
+            const Real d_next = min(max(Real(s.d + (n.dd + dd_limited)), Real(0.5 * s.d)), Real(0.5 * (1.0 + s.d)));
+            if constexpr (under_pressure) d_strength = hold<Real, Real>(ready, d_strength, s.d);
+            s.d = hold<Real, Real>(ready, s.d, d_next);
             for (int k = 0; k < K; ++k) {
-                const Real du2 = (B[k] * dd2 + bend[k]) * A[k], u_next = u[k] + (du[k] + within(du2, du[k]));
-                done = and_without_branch(done, Mask<Real>(abs(du2) <= small_correction * u[k]));
+                const Real du2 = (n.B[k] * dd2 + bend[k]) * n.A[k], u_next = u[k] + (n.du[k] + within(du2, n.du[k]));
+                close.of(n.du[k], du2, u[k]);
                 const Real far(far_end(law_of<with_normal>(k)));
-                u[k] = hold<Real, Real>(s.solved, u[k], min(max(u_next, Real(0.5 * u[k])), far));
-                last[k] = iteration == 0 ? point[k] : hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
+                u[k] = hold<Real, Real>(ready, u[k], min(max(u_next, Real(0.5 * u[k])), far));
+                last[k] = iteration == 0 ? point[k] : hold<BentSoftened<Real>, Real>(ready, last[k], point[k]);
             }
-            if (ends(done, iteration, confirmed, s.solved, l.solves)) break;
+            const Mask<Real> held = ready;
+            const bool is_last = ends(close.near(), iteration, confirmed, ready, l.solves);
+            s.solved =
+                s.solved || (is_differentiated<Real> ? ready : and_without_branch(close.done, Mask<Real>(!held)));
+            if (is_last) break;
+            for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
+            if constexpr (under_pressure)
+                s.tau = hold<ShearStrength<Real>, Real>(ready, s.tau, l.pressure.strength(s.d * l.opening));
+        }
+        if (!is_differentiated<Real> && !all(s.solved)) {
+            l.solves.count(1);
             for (int k = 0; k < K; ++k) point[k] = law_of<with_normal>(k).bent_at(u[k]);
             if constexpr (under_pressure)
                 s.tau = hold<ShearStrength<Real>, Real>(s.solved, s.tau, l.pressure.strength(s.d * l.opening));
+            const NewtonStep<K, Real> n = newton_step<under_pressure, K, Real>(l, s.d, s.tau, point);
+            Mask<Real> close = and_without_branch(ready, Mask<Real>(abs(n.dd) <= newton_enough * (s.d * (1.0 - s.d))));
+            if constexpr (under_pressure) d_strength = hold<Real, Real>(s.solved, d_strength, s.d);
+            s.d = hold<Real, Real>(s.solved, s.d, s.d + n.dd);
+            for (int k = 0; k < K; ++k) {
+                close = and_without_branch(close, Mask<Real>(abs(n.du[k]) <= newton_enough * u[k]));
+                u[k] = hold<Real, Real>(s.solved, u[k], u[k] + n.du[k]);
+                last[k] = hold<BentSoftened<Real>, Real>(s.solved, last[k], point[k]);
+            }
+            s.solved = s.solved || close;
         }
         for (int k = 0; k < K; ++k) s.at[k] = law_of<with_normal>(k).moved(last[k], u[k]);
         if constexpr (under_pressure) {
