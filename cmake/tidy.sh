@@ -15,14 +15,14 @@ run() {
     sed -n 's/^ *"command": "\(.*\)",$/\1/p' compile_commands.json | grep -E -e "$pattern" |
         sed -e 's/\\\(.\)/\1/g' "$@" | tr '\n' '\0' | xargs -0 -P "$(nproc)" -I '{}' sh -c '{}'
 }
-# tidy SOURCES [OPTION]...: clang-tidy, which repeats the warnings of the front end. It looks at all that is included,
-# so that more of it than a source asks for costs time.
+# tidy PATTERN [OPTION]...: clang-tidy, which repeats the warnings of the front end, on the files of the database that
+# match. It looks at all that is included, so that more of it than a source asks for costs time.
 mkdir -p plain
 sed 's/ -Xclang -include\(-pch\)\? -Xclang [^ ]*//g' compile_commands.json >plain/compile_commands.json
 tidy() {
-    sources=$1
+    pattern=$1
     shift
-    (cd "$root" && git ls-files "$sources") | sed "s|^|$root/|" |
+    sed -n 's/^ *"file": "\(.*\)"[^"]*$/\1/p' compile_commands.json | grep -E -e "$pattern" | sort -u |
         xargs -P "$(nproc)" -n 2 clang-tidy-14 -p plain --quiet --warnings-as-errors='*' "$@" 2>/dev/null
 }
 
@@ -31,10 +31,11 @@ sed -n 's/.* -o \([^ ]*\)\/cmake_pch\.hxx\.pch .*/\1/p' compile_commands.json | 
 run '\.hxx\.cxx$'
 
 echo "-- warnings of clang"
-run '\.cpp$' -e "\\# $root/\\(host\\|umat\\|fortran_shims\\)/[^ ]*\$#d" -e 's/ -o [^ ]* -c / -fsyntax-only -c /'
+host="^($root|$PWD)/host/.*(\.cpp|_cxx\.cxx)\$" # files, or several of them in one
+run '(\.cpp|_cxx\.cxx)$' -e "\\# $root/\\(host\\|umat\\|fortran_shims\\)/[^ ]*\$#d" -e "\\# $PWD/host/[^ ]*\$#d" \
+    -e 's/ -o [^ ]* -c / -fsyntax-only -c /'
 
 echo "-- clang-tidy and warnings of the entry points and the host"
 # The analyzer is for what lives in other people's programs; it would take minutes on the host.
-tidy 'umat/*.cpp'
-tidy 'fortran_shims/*.cpp'
-tidy 'host/*.cpp' --checks='-clang-analyzer-*'
+tidy "^$root/(umat|fortran_shims)/.*\\.cpp\$"
+tidy "$host" --checks='-clang-analyzer-*'

@@ -16,13 +16,13 @@ constexpr int printed_messages = 50;
 // One analysis a thread: a library that exits does so on the thread that called it.
 thread_local std::jmp_buf* landing = nullptr;
 thread_local std::string last_error;
-thread_local int muted = 0;
+thread_local int mute_count = 0;
 
 #ifdef LODE_HOST_HAS_UTILITY
 void on_message(int severity, const char* text) {
     static int count = 0;
     if (severity <= -2) last_error = text;
-    if (muted > 0) return;
+    if (mute_count > 0) return;
     if (++count > printed_messages && severity > -3) {
         if (count == printed_messages + 1) std::fprintf(stderr, "library: further messages are not shown\n");
         return;
@@ -39,8 +39,8 @@ void on_exit() {
 
 }  // namespace
 
-Muted::Muted() { ++muted; }
-Muted::~Muted() { --muted; }
+Muted::Muted() { ++mute_count; }
+Muted::~Muted() { --mute_count; }
 
 void install_utility_handlers() {
 #ifdef LODE_HOST_HAS_UTILITY

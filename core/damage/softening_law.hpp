@@ -20,13 +20,6 @@
 
 namespace lode {
 
-// One point takes libm's, whose table is quicker than a long polynomial; a batch takes what is inlined.
-template <class Real>
-LODE_INLINE Real softening_exp(const Real& x) {
-    if constexpr (is_batch<Real>) return quick_exp(x);
-    else return exp(x);
-}
-
 // A point of a law.
 template <class Real>
 struct Softened {
@@ -285,7 +278,7 @@ class SofteningLaw {
     template <Code code, class Real>
     LODE_INLINE BentSoftened<Real> bent_of(const Real& u) const {
         if constexpr (code == exponential) {
-            const Real f = softening_exp(Real(-u));
+            const Real f = quick_exp(Real(-u));
             return {{u, f, -f}, f};
         } else if constexpr (code == cubic) {
             const double inverse = 1.0 / end_;
@@ -293,12 +286,12 @@ class SofteningLaw {
             return {{u, (1.0 + 2.0 * k2_ * x) * (rest * rest), inverse * (a1_ - bend) * rest},
                     square(inverse) * (2.0 * bend - (a1_ + 6.0 * k2_))};
         } else if constexpr (code == double_exponential) {
-            const Real slow = scale_ * softening_exp(Real(-k_ * u));
-            const Real fast = (scale_ * a2_) * softening_exp(Real((-a1_ * k_) * u));
+            const Real slow = scale_ * quick_exp(Real(-k_ * u));
+            const Real fast = (scale_ * a2_) * quick_exp(Real((-a1_ * k_) * u));
             return {{u, slow - fast, k_ * (a1_ * fast - slow)}, (k_ * k_) * (slow - (a1_ * a1_) * fast)};
         } else {
             // z = (k u)^a. At u = 0 the slope is 0, or -k for a = 1.
-            const Real size = max(u, Real(smallest_)), z = stretched_exponent(size), f = softening_exp(Real(-z));
+            const Real size = max(u, Real(smallest_)), z = stretched_exponent(size), f = quick_exp(Real(-z));
             const Real inverse = 1.0 / size, rate = (a1_ * z) * inverse;
             return {{u, f, -rate * f}, rate * f * (rate - (a1_ - 1.0) * inverse)};
         }
@@ -306,14 +299,14 @@ class SofteningLaw {
     // (k u)^a
     template <class Real>
     LODE_INLINE Real stretched_exponent(const Real& u) const {
-        return softening_exp(Real(a1_ * quick_log(Real(k_ * u))));
+        return quick_exp(Real(a1_ * quick_log(Real(k_ * u))));
     }
 
     template <class Real>
     [[gnu::noinline]] Real curved_omega(Real u) const {
         switch (code_) {
             case exponential:
-                return 1.0 - softening_exp(Real(-u)) * (1.0 + 0.5 * u);
+                return 1.0 - quick_exp(Real(-u)) * (1.0 + 0.5 * u);
             case smooth_step:
             case cubic: {
                 const Real x = u * (1.0 / end_);
@@ -321,13 +314,13 @@ class SofteningLaw {
             }
             case double_exponential: {
                 const double a = a1_, b = a2_, inverse_k = 1.0 / k_;
-                const Real slow = softening_exp(Real(-k_ * u)), fast = softening_exp(Real((-a * k_) * u));
+                const Real slow = quick_exp(Real(-k_ * u)), fast = quick_exp(Real((-a * k_) * u));
                 return scale_ *
                        ((a - b) / a * inverse_k - slow * (inverse_k + 0.5 * u) + b * fast * (inverse_k / a + 0.5 * u));
             }
             default: {
                 const Real z = stretched_exponent(max(u, Real(smallest_)));
-                return stretched_omega(u, z, softening_exp(Real(-z)));
+                return stretched_omega(u, z, quick_exp(Real(-z)));
             }
         }
     }
@@ -417,7 +410,7 @@ class SofteningLaw {
                     return solve_by_newton<exponential>(d, r, u_start, active, solves);
                 } else {
                     const Real X = d * r / max(1.0 - d, Real(1e-16));
-                    const Real u = solve_exponential(X, u_start, active, solves), f = softening_exp(Real(-u));
+                    const Real u = solve_exponential(X, u_start, active, solves), f = quick_exp(Real(-u));
                     return {u, f, -f};
                 }
             case double_exponential:
@@ -435,7 +428,7 @@ class SofteningLaw {
         Real f = u;
         Mask<Real> done = Mask<Real>(false);
         for (int iteration = 0;; ++iteration) {
-            const Real at = softening_exp(Real(-u)), step = (u + r * at - x) / (1.0 - r * at);
+            const Real at = quick_exp(Real(-u)), step = (u + r * at - x) / (1.0 - r * at);
             const Mask<Real> last = !done && (!active || abs(step) <= 1e-8);
             // What is left is a few squares of the step.
             f = select(last, at * (1.0 + step * (1.0 + 0.5 * step)), f);

@@ -187,7 +187,7 @@ struct LinkedSoftening {
     // needs.
     template <int K, class Real>
     struct NewtonStep {
-        Real dd, inverse_c, S, stretch, rise;  // rise = d ln(tau)/dd
+        Real dd, inverse_c, S, stretch, per_tau, rise;  // 1/tau, d ln(tau)/dd
         Vector<Real, K> du, r, B, A, F, inverse, follow, ratio, lead, lag;
     };
     template <bool under_pressure, int K, class Real>
@@ -198,11 +198,12 @@ struct LinkedSoftening {
         NewtonStep<K, Real> n;
         n.r = l.brittleness;
         Vector<Real, K> x = l.x;
-        n.rise = zero;
+        n.per_tau = n.rise = zero;
         if constexpr (under_pressure) {
             n.r[K - 1] = l.weakness * (tau.value * tau.value);
             x[K - 1] = l.by_strength * tau.value;
-            n.rise = tau.slope / tau.value * (l.pressure.K * l.opening);
+            n.per_tau = 1.0 / tau.value;
+            n.rise = tau.slope * n.per_tau * (l.pressure.K * l.opening);
         }
         // F = (1 - d) u - d r f, A = du/dF. With u following d, e/q of a direction changes by the fraction z, to first
         // order lead dd - lag.
@@ -263,7 +264,7 @@ struct LinkedSoftening {
             const NewtonStep<K, Real> n = newton_step<under_pressure, K, Real>(l, s.d, s.tau, point);
             const Real scale = s.d * (1.0 - s.d);  // of steps that are nearly done
             [[maybe_unused]] Real bow(0.0);        // (d2 tau/dd2)/(2 tau)
-            if constexpr (under_pressure) bow = 0.5 * s.tau.curvature / s.tau.value * square(l.pressure.K * l.opening);
+            if constexpr (under_pressure) bow = 0.5 * s.tau.curvature * n.per_tau * square(l.pressure.K * l.opening);
             Vector<Real, K> bend;
             Real rest = -1.5 * n.S * square(n.stretch);
             for (int k = 0; k < K; ++k) {

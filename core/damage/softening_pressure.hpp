@@ -46,14 +46,14 @@ class PressureDependence {
                 break;
             }
             case step_exponential: {
-                const Real x = P - p1_, part = softening_exp(Real(-rate_ * positive_part(x)));
+                const Real x = P - p1_, part = quick_exp(Real(-rate_ * positive_part(x)));
                 tau.value = tau.value + rise_ * rs * (1.0 - part);
                 tau.slope = select(x > zero, rate_ * rise_ * rs * part, zero);
                 tau.curvature = -rate_ * tau.slope;
                 break;
             }
             case sigmoidal: {
-                const Real part = 1.0 / (1.0 + softening_exp(bounded(Real(-rate_ * (P - p1_)))));
+                const Real part = 1.0 / (1.0 + quick_exp(bounded(Real(-rate_ * (P - p1_)))));
                 tau.value = tau.value + rise_ * rs * part;
                 tau.slope = rate_ * rise_ * rs * part * (1.0 - part);
                 tau.curvature = rate_ * tau.slope * (1.0 - 2.0 * part);

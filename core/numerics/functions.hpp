@@ -1,5 +1,5 @@
 // Exponential, logarithm and power for kernels, inlined, so that a call does not push a material point out of the
-// registers; errors are below 2 units in the last place. Differentiated numbers use their own functions.
+// registers; errors are below 2.5 units in the last place. Differentiated numbers use their own functions.
 #pragma once
 
 #include <bit>
@@ -13,37 +13,73 @@ namespace functions_detail {
 inline constexpr double shifter = 0x1.8p52;  // adding it rounds to an integer
 inline constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
 
-template <class Real>
-struct Reduced {
-    Real expm1;  // of the rest
-    Real scale;  // 2^n
-};
 // What is not a number stays so.
 LODE_INLINE double clamp_exponent(double x) { return std::min(std::max(x, -708.0), 709.0); }
 LODE_INLINE Batch clamp_exponent(const Batch& x) { return min(Batch(709.0), max(Batch(-708.0), x)); }
 // 2^n from n + shifter.
-LODE_INLINE double power_of_two(double shifted) {
-    return std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) << 52) + std::bit_cast<std::uint64_t>(1.0));
-}
 LODE_INLINE Batch power_of_two(const Batch& shifted) {
     using Integer = xsimd::batch<std::int64_t>;
     const Integer one(std::bit_cast<std::int64_t>(1.0));
     return xsimd::bitwise_cast<Batch>((xsimd::bitwise_cast<Integer>(shifted) << 52) + one);
 }
 
+struct ReducedBatch {
+    Batch expm1;  // of the rest
+    Batch scale;  // 2^n
+};
 // x = n ln 2 + rest, |rest| <= ln(2)/2.
-template <class Real>
-LODE_INLINE Reduced<Real> reduce(const Real& exponent) {
-    const Real x = clamp_exponent(exponent);
-    const Real shifted = x * 1.4426950408889634074 + shifter, n = shifted - shifter;
-    const Real r = (x - n * ln2_high) - n * ln2_low;
+LODE_INLINE ReducedBatch reduce(const Batch& exponent) {
+    const Batch x = clamp_exponent(exponent);
+    const Batch shifted = x * 1.4426950408889634074 + shifter, n = shifted - shifter;
+    const Batch r = (x - n * ln2_high) - n * ln2_low;
     // Taylor series in the order that lets most of it run in parallel.
-    const Real r2 = r * r, r4 = r2 * r2;
-    const Real p0 = 1.0 / 2 + r * (1.0 / 6), p1 = 1.0 / 24 + r * (1.0 / 120);
-    const Real p2 = 1.0 / 720 + r * (1.0 / 5040), p3 = 1.0 / 40320 + r * (1.0 / 362880);
-    const Real p4 = 1.0 / 3628800 + r * (1.0 / 39916800), p5 = 1.0 / 479001600 + r * (1.0 / 6227020800);
-    const Real q = (p0 + r2 * p1) + r4 * ((p2 + r2 * p3) + r4 * (p4 + r2 * p5));
+    const Batch r2 = r * r, r4 = r2 * r2;
+    const Batch p0 = 1.0 / 2 + r * (1.0 / 6), p1 = 1.0 / 24 + r * (1.0 / 120);
+    const Batch p2 = 1.0 / 720 + r * (1.0 / 5040), p3 = 1.0 / 40320 + r * (1.0 / 362880);
+    const Batch p4 = 1.0 / 3628800 + r * (1.0 / 39916800), p5 = 1.0 / 479001600 + r * (1.0 / 6227020800);
+    const Batch q = (p0 + r2 * p1) + r4 * ((p2 + r2 * p3) + r4 * (p4 + r2 * p5));
     return {r + r2 * q, power_of_two(shifted)};
+}
+
+// 2^(i/size): the bits of the nearest number, and what that lacks as a fraction of it.
+struct ExponentialTable {
+    static constexpr int bits = 7, size = 1 << bits;
+    // ln(2)/size; times a whole number below 2^18 the first is exact.
+    static constexpr double step_high = 0x1.62e42fefcp-1 / size, step_low = -0x1.c610ca86c3899p-37 / size;
+    std::uint64_t power[size] = {};
+    double rest[size] = {};
+
+    constexpr ExponentialTable() {
+        for (int i = 0; i < size; ++i) {
+            const long double x = 0.693147180559945309417232121458176568L * i / size;
+            long double term = 1.0L, sum = 0.0L;
+            for (int k = 1; k < 40; ++k) {
+                sum += term;
+                term *= x / k;
+            }
+            const auto nearest = static_cast<double>(sum);
+            power[i] = std::bit_cast<std::uint64_t>(nearest);
+            rest[i] = static_cast<double>((sum - nearest) / sum);
+        }
+    }
+};
+inline constexpr ExponentialTable exponential_table;
+
+struct ReducedNumber {
+    double expm1;  // of the rest
+    double scale;  // 2^(n/size), rounded
+    double error;  // what rounding has taken from it, as a fraction of it
+};
+// The same with fewer terms: x = n ln(2)/size + rest.
+LODE_INLINE ReducedNumber reduce(double exponent) {
+    constexpr int size = ExponentialTable::size;
+    const double x = clamp_exponent(exponent);
+    const double shifted = x * (size * 1.4426950408889634074) + shifter, n = shifted - shifter;
+    const double r = (x - n * ExponentialTable::step_high) - n * ExponentialTable::step_low;  // |r| < 0.0028
+    const double r2 = r * r, q = (0.5 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
+    const auto steps = std::bit_cast<std::uint64_t>(shifted), bin = steps % size;
+    const double scale = std::bit_cast<double>(exponential_table.power[bin] + ((steps / size) << 52));
+    return {r + r2 * q, scale, exponential_table.rest[bin]};
 }
 
 // 1/c and ln c of the bins of the mantissa, c their middle; the bin around 1 has c = 1.
@@ -107,13 +143,13 @@ LODE_INLINE PowerPair power(const Pair& x, const Pair& n, bool& usual) {
     const auto inside = (x > 1e-300) & (x < 1e300) & (y > -708.0) & (y < 709.0);
     usual = (inside[0] & inside[1]) != 0;
 
-    const Pair shifted = y * 1.4426950408889634074 + shifter, whole = shifted - shifter;
-    const Pair e = (y - whole * ln2_high) - whole * ln2_low, e2 = e * e, e4 = e2 * e2;
-    const Pair q0 = 1.0 / 2 + e * (1.0 / 6), q1 = 1.0 / 24 + e * (1.0 / 120), q2 = 1.0 / 720 + e * (1.0 / 5040);
-    const Pair q3 = 1.0 / 40320 + e * (1.0 / 362880), q4 = 1.0 / 3628800 + e * (1.0 / 39916800);
-    const Pair q5 = 1.0 / 479001600 + e * (1.0 / 6227020800);
-    const Pair q = (q0 + e2 * q1) + e4 * ((q2 + e2 * q3) + e4 * (q4 + e2 * q5));
-    const auto scale = std::bit_cast<Pair>((std::bit_cast<PairBits>(shifted) << 52) + one);
+    constexpr int size = ExponentialTable::size;
+    const Pair shifted = y * (size * 1.4426950408889634074) + shifter, whole = shifted - shifter;
+    const Pair e = (y - whole * ExponentialTable::step_high) - whole * ExponentialTable::step_low, e2 = e * e;
+    const Pair q = (0.5 + e * (1.0 / 6)) + e2 * (1.0 / 24 + e * (1.0 / 120));
+    const auto steps = std::bit_cast<PairBits>(shifted), step = steps % size;
+    const PairBits powers{exponential_table.power[step[0]], exponential_table.power[step[1]]};
+    const auto scale = std::bit_cast<Pair>(powers + ((steps / size) << 52));
 
     const Pair z = (n * 1.4426950408889634074) * ((k * 0.69314718055994530942 + table) + (r - 0.5 * r2));
     const Pair z_shifted = z + shifter, f = 0.69314718055994530942 * (z - (z_shifted - shifter)), f2 = f * f;
@@ -144,8 +180,8 @@ LODE_INLINE Batch logarithm(const Batch& x) {
 template <class Real>
 LODE_INLINE Real quick_exp(const Real& x) {
     if constexpr (std::is_same_v<Real, double> || is_batch<Real>) {
-        const auto [p, scale] = functions_detail::reduce(x);
-        return scale * p + scale;
+        const auto reduced = functions_detail::reduce(x);
+        return reduced.scale * reduced.expm1 + reduced.scale;
     } else {
         return exp(x);
     }
@@ -153,7 +189,10 @@ LODE_INLINE Real quick_exp(const Real& x) {
 // e^x - 1.
 template <class Real>
 LODE_INLINE Real quick_expm1(const Real& x) {
-    if constexpr (std::is_same_v<Real, double> || is_batch<Real>) {
+    if constexpr (std::is_same_v<Real, double>) {
+        const auto [p, scale, error] = functions_detail::reduce(x);
+        return scale * (p + error) + (scale - 1.0);
+    } else if constexpr (is_batch<Real>) {
         const auto [p, scale] = functions_detail::reduce(x);
         return scale * p + (scale - 1.0);
     } else {
@@ -183,7 +222,6 @@ LODE_INLINE Real estimated_log(const Real& x) {
     }
 }
 // ln(1 + x), accurate relative to itself, for a normal number 1 + x > 0: what rounding takes from 1 + x is given back.
-// Errors are below 2.5 units.
 template <class Real>
 LODE_INLINE Real quick_log1p(const Real& x) {
     if constexpr (std::is_same_v<Real, double>) {

@@ -97,7 +97,7 @@ class Adviser {
         const Interface* interface = interface_of(deck_.analysis);
         if (interface == nullptr) return;
         judge(result, *interface->library);
-        if (result.failure.empty()) result.cost = measure(result.scenario, *interface->library, settings_.repetitions);
+        if (result.failure.empty()) result.cost = settings_.cost(result.scenario, *interface->library);
         advice_.as_written = std::move(result);
     }
 
@@ -107,7 +107,7 @@ class Adviser {
         result.increments = settings_.finest;
         judge(result, libraries_.main());
         if (!result.failure.empty()) return;
-        result.cost = measure(result.scenario, libraries_.main(), settings_.repetitions);
+        result.cost = settings_.cost(result.scenario, libraries_.main());
         advice_.safest = std::move(result);
     }
 
@@ -176,7 +176,7 @@ class Adviser {
         }
         Option result = found ? *found : *nearest;
         result.sufficient = found.has_value();
-        if (found) result.cost = measure(result.scenario, *interface.library, settings_.repetitions);
+        if (found) result.cost = settings_.cost(result.scenario, *interface.library);
         advice_.options.push_back(std::move(result));
     }
 

@@ -2,6 +2,7 @@
 #ifndef LODE_HOST_ADVISE_ADVISE_HPP
 #define LODE_HOST_ADVISE_ADVISE_HPP
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,7 +49,10 @@ struct Advice {
 struct AdviseSettings {
     double tolerance = 1e-3;
     int finest = 512;  // most increments a step
-    int repetitions = usual_repetitions;
+    // What a scene that is not resolved and has been run costs. Timed, unless somebody knows better.
+    std::function<Cost(const Scenario&, const Library&)> cost = [](const Scenario& scene, const Library& library) {
+        return measure(scene, library);
+    };
 };
 
 // The scenario has not been resolved. Throws Refused if it cannot be run at all.

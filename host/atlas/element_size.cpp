@@ -13,7 +13,7 @@ namespace lode::host {
 namespace {
 
 constexpr double smallest = 1e-9, largest_tried = 1e9;
-constexpr int increments = 1000;
+constexpr int pull_increments = 1000;
 constexpr std::size_t plotted_every = 4;
 constexpr double softened = 0.2;  // of the strength
 
@@ -66,7 +66,7 @@ std::vector<Dissipation> dissipation_over_size(const Scenario& scenario, const L
     const double half = 0.5 * largest_length;
     double displacement = 0;
     for (double strain = strain_scale; strain < 1e4 * strain_scale && displacement == 0; strain *= 4) {
-        Scenario scene = pulled(scenario, half, strain, increments);
+        Scenario scene = pulled(scenario, half, strain, pull_increments);
         resolve(scene, library);
         double strength = 0;
         drive(scene, library, [&](const Record& r) {
@@ -80,7 +80,7 @@ std::vector<Dissipation> dissipation_over_size(const Scenario& scenario, const L
     for (const double fraction : fractions) {
         Dissipation run;
         run.length = fraction * largest_length;
-        Scenario scene = pulled(scenario, run.length, displacement / run.length, increments);
+        Scenario scene = pulled(scenario, run.length, displacement / run.length, pull_increments);
         resolve(scene, library);
         const Outcome outcome = drive(scene, library, [&](const Record& r) {
             run.curve.emplace_back(r.point.strain[0] * run.length, r.point.stress[0]);

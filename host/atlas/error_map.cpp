@@ -61,14 +61,14 @@ Table table_of(const ErrorMap& map) {
 // x, y and value as gnuplot wants a grid: a blank line between rows.
 template <class Value>
 std::string grid_of(const ErrorMap& map, const Value& value) {
-    std::string grid = "$grid << EOD\n";
+    std::string rows = "$grid << EOD\n";
     double row = map.cells.empty() ? 0 : map.cells.front().y;
     for (const ErrorMapCell& c : map.cells) {
-        if (c.y != row) grid += "\n";
+        if (c.y != row) rows += "\n";
         row = c.y;
-        grid += fmt::format("{} {} {}\n", c.x, c.y, value(c));
+        rows += fmt::format("{} {} {}\n", c.x, c.y, value(c));
     }
-    return grid + "EOD\n";
+    return rows + "EOD\n";
 }
 
 constexpr const char* x_label = "increment along the stress (elastic limit strains)";

@@ -12,7 +12,7 @@
 namespace lode::host {
 namespace {
 
-constexpr int timed_calls = 20;
+constexpr int timed_repeats = 20;
 constexpr int longest_walk = 20;
 
 class Walk {
@@ -76,7 +76,7 @@ std::vector<AlgorithmRates> failure_rates(const Scenario& walker, const std::vec
                     rate.most_iterations = std::max(rate.most_iterations, observed->iterations);
                     if (observed->safeguards > 0) ++rate.safeguarded;
                 }
-                rate.nanoseconds += points[i]->nanoseconds(dstrain, timed_calls);
+                rate.nanoseconds += points[i]->nanoseconds(dstrain, timed_repeats);
             }
         }
     }

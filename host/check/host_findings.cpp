@@ -68,8 +68,6 @@ class Findings {
     std::map<std::string, Tally> tallies_;
 };
 
-double largest(const Components& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
-
 std::optional<Kind> kind_of(int ndi, int nshr) {
     if (ndi == 3 && nshr == 3) return Kind::solid;
     if (ndi == 3 && nshr == 1) return Kind::plane_strain;
@@ -81,8 +79,8 @@ std::optional<Kind> kind_of(int ndi, int nshr) {
 }
 
 bool is_rotation(const Matrix3& r) {
-    constexpr double tolerance = 1e-6;
-    return (r.transpose() * r - Matrix3::Identity()).cwiseAbs().maxCoeff() < tolerance && r.determinant() > 0;
+    constexpr double rounding = 1e-6;
+    return (r.transpose() * r - Matrix3::Identity()).cwiseAbs().maxCoeff() < rounding && r.determinant() > 0;
 }
 
 // Strain and rotation that the gradients contain. Hosts integrate differently: second-order differences are theirs.

@@ -15,8 +15,6 @@
 namespace lode::host {
 namespace {
 
-double largest(const Components& v) { return v.cwiseAbs().maxCoeff(); }
-
 bool same_bits(const Numbers& a, const Numbers& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }

@@ -19,7 +19,7 @@ constexpr double good = 1e-6, usable = 1e-3;                                    
 constexpr double floor = 1e-2;  // of the stiffness: yield conditions are met to a tolerance, seen where DDSDDE vanishes
 constexpr double recognised = 1e-4;  // a diagnosis explains the difference if it leaves less
 
-double largest(const Tangent& a) { return a.cwiseAbs().maxCoeff(); }
+double largest_entry(const Tangent& a) { return a.cwiseAbs().maxCoeff(); }
 
 struct Differences {
     std::array<double, steps.size()> error;  // NaN where a perturbed increment could not be done
@@ -57,7 +57,7 @@ Differences differences(Bench& bench, const Situation& s) {
     const int n = bench.layout().size();
     Differences result;
     result.best = result.cauchy = Tangent::Zero(n, n);
-    const double size = std::max(largest(s.answer.tangent), floor * bench.subject().stiffness);
+    const double size = std::max(largest_entry(s.answer.tangent), floor * bench.subject().stiffness);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         Tangent kirchhoff(n, n), cauchy(n, n);
         bool done = true;
@@ -70,7 +70,7 @@ Differences differences(Bench& bench, const Situation& s) {
         }
         result.error[i] = NAN;
         if (!done) continue;
-        double error = largest(kirchhoff - s.answer.tangent) / size;
+        double error = largest_entry(kirchhoff - s.answer.tangent) / size;
         if (!std::isfinite(error)) error = HUGE_VAL;
         result.error[i] = error;
         if (result.best.isZero(0) || error < result.best_error) {
@@ -94,13 +94,13 @@ Tangent scaled_shear(const Tangent& tangent, int ndi, double factor, bool rows) 
 // What kind of mistake makes this DDSDDE of that derivative.
 std::string diagnosis(Bench& bench, const Situation& s, const Differences& d, const Tangent& virgin) {
     const Tangent& given = s.answer.tangent;
-    const double size = std::max(largest(d.best), floor * bench.subject().stiffness);
+    const double size = std::max(largest_entry(d.best), floor * bench.subject().stiffness);
     const auto is = [&](const Tangent& a, const Tangent& b) {
-        const double error = largest(a - b);
+        const double error = largest_entry(a - b);
         return std::isfinite(error) && error <= recognised * size;
     };
     if (!given.allFinite()) return "tangent-not-finite";
-    if (given.isZero(0) && largest(d.best) > floor * bench.subject().stiffness) return "tangent-zero";
+    if (given.isZero(0) && largest_entry(d.best) > floor * bench.subject().stiffness) return "tangent-zero";
     if (is(given.transpose(), d.best)) return "tangent-transposed";
     if (is(given, d.cauchy)) return "tangent-cauchy";
     const int ndi = bench.layout().ndi();
@@ -108,7 +108,7 @@ std::string diagnosis(Bench& bench, const Situation& s, const Differences& d, co
         for (const double factor : {2.0, 0.5})
             for (const bool rows : {true, false})
                 if (is(scaled_shear(given, ndi, factor, rows), d.best)) return "tangent-shear-factor";
-    if (largest(given - virgin) <= recognised * largest(virgin)) return "tangent-elastic";
+    if (largest_entry(given - virgin) <= recognised * largest_entry(virgin)) return "tangent-elastic";
     // Components 13 and 23 the other way round.
     if (bench.layout().size() == 6) {
         Eigen::PermutationMatrix<6> swap;
@@ -186,9 +186,9 @@ void check_symmetry(const Subject& subject, CheckResult& result) {
     double worst = 0;
     std::string at;
     for (const Situation& s : bench.situations()) {
-        const double size = largest(s.answer.tangent);
+        const double size = largest_entry(s.answer.tangent);
         if (!(size > 0) || !std::isfinite(size)) continue;
-        const double skew = largest(s.answer.tangent - s.answer.tangent.transpose()) / size;
+        const double skew = largest_entry(s.answer.tangent - s.answer.tangent.transpose()) / size;
         if (skew <= worst) continue;
         worst = skew;
         at = where(s);

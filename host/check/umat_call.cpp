@@ -147,8 +147,8 @@ UmatAnswer UmatCaller::operator()(const UmatCall& call, const Surroundings& arou
     const int* const npt = integer("NPT", call.npt);
     const int* const layer = integer("LAYER", call.layer);
     const int* const kspt = integer("KSPT", call.kspt);
-    const std::array<int, 4> steps{call.kstep, 1, 1, 0};
-    const int* const jstep = integers_.input("JSTEP", steps.data(), steps.size(), 0x5A5A5A5A);
+    const std::array<int, 4> step_numbers{call.kstep, 1, 1, 0};
+    const int* const jstep = integers_.input("JSTEP", step_numbers.data(), step_numbers.size(), 0x5A5A5A5A);
     const int* const kinc = integer("KINC", call.kinc);
 
     UmatAnswer answer;

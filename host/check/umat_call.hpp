@@ -15,6 +15,9 @@ namespace lode::host {
 
 using Numbers = std::vector<double>;
 
+// The largest absolute component; 0 if there is none.
+inline double largest(const Components& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
+
 struct UmatCall {
     std::string name;
     Numbers props;

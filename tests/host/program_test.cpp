@@ -22,11 +22,11 @@ Result lode(const Directory& directory, const std::string& arguments, const std:
 
 const std::string library = " --library '" HOST_TEST_LIBRARY "'";
 const std::string material = "[material]\nname = \"J2-A\"\nconstants = [1000, 0.3, 5, 100]\nstate_variables = 1\n";
-const std::string step = "[[step]]\nstrain = { 11 = 0.01 }\nincrements = 5\n";
+const std::string five_increments = "[[step]]\nstrain = { 11 = 0.01 }\nincrements = 5\n";
 
 TEST(Program, SuccessWritesCsvPlotAndSummary) {
     const Directory directory;
-    directory.write("bar.toml", "title = \"A 'quoted' title\"\n" + material + step +
+    directory.write("bar.toml", "title = \"A 'quoted' title\"\n" + material + five_increments +
                                     "[output]\ncolumns = [\"time\", \"stress11\", \"mises\", \"state1\"]\nplot = { x = "
                                     "\"strain11\", y = [\"stress11\", \"mises\"] }\n");
     const Result result = lode(directory, "replay bar.toml --output results" + library);
@@ -51,7 +51,7 @@ TEST(Program, SuccessWritesCsvPlotAndSummary) {
 
 TEST(Program, QuietPrintsNothing) {
     const Directory directory;
-    directory.write("bar.toml", material + step + "[output]\nevery = 2\nplot = false\n");
+    directory.write("bar.toml", material + five_increments + "[output]\nevery = 2\nplot = false\n");
     const Result result = lode(directory, "replay --quiet bar.toml" + library);
     EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.out + result.err, "");
@@ -62,7 +62,7 @@ TEST(Program, QuietPrintsNothing) {
 
 TEST(Program, WithoutGnuplotThereIsStillTheScript) {
     const Directory directory;
-    directory.write("bar.toml", material + step);
+    directory.write("bar.toml", material + five_increments);
     const Result result = lode(directory, "replay bar.toml" + library, "PATH=/nonexistent");
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.err.find("gnuplot is not installed"), std::string::npos) << result.err;
@@ -77,7 +77,7 @@ TEST(Program, UsageErrors) {
     EXPECT_EQ(lode(directory, "--help").status, 0);
     EXPECT_EQ(lode(directory, "replay --help").status, 0);
     EXPECT_EQ(lode(directory, "--version").status, 0);
-    directory.write("bar.toml", material + step);
+    directory.write("bar.toml", material + five_increments);
     directory.write("file", "");
     EXPECT_EQ(lode(directory, "replay bar.toml --output file" + library).status, 1);
 }
@@ -89,7 +89,7 @@ TEST(Program, BadDecks) {
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.err.find("bar.toml:6: step[1].strian: there is no such key"), 0U) << result.err;
     EXPECT_NE(result.err.find("did you mean \"strain\""), std::string::npos) << result.err;
-    directory.write("bar.toml", material + step + "[output]\ncolumns = [\"time\",\n  \"stress14\"]\n");
+    directory.write("bar.toml", material + five_increments + "[output]\ncolumns = [\"time\",\n  \"stress14\"]\n");
     const Result column = lode(directory, "replay bar.toml" + library);
     EXPECT_EQ(column.status, 2);
     EXPECT_EQ(column.err.find("bar.toml:10: output.columns: there is no column \"stress14\""), 0U) << column.err;
@@ -112,7 +112,7 @@ TEST(Program, NoConvergenceKeepsWhatWasDone) {
 #ifdef HOST_TEST_HAS_UTILITY
 TEST(Program, ExitOfTheLibrary) {
     const Directory directory;
-    directory.write("bar.toml", "[material]\nname = \"QUIT\"\nconstants = [1000, 0.3]\n" + step);
+    directory.write("bar.toml", "[material]\nname = \"QUIT\"\nconstants = [1000, 0.3]\n" + five_increments);
     const Result result = lode(directory, "replay bar.toml" + library);
     EXPECT_EQ(result.status, 4);
     EXPECT_NE(result.err.find("QUIT: that is enough"), std::string::npos) << result.err;
@@ -122,7 +122,7 @@ TEST(Program, ExitOfTheLibrary) {
 
 TEST(Program, RefusedConstants) {
     const Directory directory;
-    directory.write("bar.toml", "[material]\nname = \"SPRING\"\nconstants = [-1000, 0.3]\n" + step);
+    directory.write("bar.toml", "[material]\nname = \"SPRING\"\nconstants = [-1000, 0.3]\n" + five_increments);
     const Result result = lode(directory, "replay bar.toml --library '" HOST_TEST_CATALOGUE "'");
     EXPECT_EQ(result.status, 4);
     EXPECT_NE(result.err.find("K has to be positive"), std::string::npos) << result.err;
@@ -130,7 +130,7 @@ TEST(Program, RefusedConstants) {
 
 TEST(Program, LibrariesThatCannotBeLoaded) {
     const Directory directory;
-    directory.write("bar.toml", material + step);
+    directory.write("bar.toml", material + five_increments);
     const Result missing = lode(directory, "replay bar.toml --library ./missing.so");
     EXPECT_EQ(missing.status, 5);
     EXPECT_NE(missing.err.find("missing.so"), std::string::npos) << missing.err;
@@ -140,9 +140,9 @@ TEST(Program, LibrariesThatCannotBeLoaded) {
 
 TEST(Program, LibraryFromEnvironmentAndDeck) {
     const Directory directory;
-    directory.write("bar.toml", material + step);
+    directory.write("bar.toml", material + five_increments);
     EXPECT_EQ(lode(directory, "replay -q bar.toml", "LODE_LIBRARY='" HOST_TEST_LIBRARY "'").status, 0);
-    directory.write("deck.toml", material + "library = \"" HOST_TEST_LIBRARY "\"\n" + step);
+    directory.write("deck.toml", material + "library = \"" HOST_TEST_LIBRARY "\"\n" + five_increments);
     EXPECT_EQ(lode(directory, "replay -q deck.toml", "LODE_LIBRARY=missing.so").status, 0);
     EXPECT_EQ(lode(directory, "replay -q deck.toml --interface vumat").status, 0);
 }

@@ -8,7 +8,7 @@
 
 #include "umat_point.hpp"
 
-namespace lode::test {
+namespace lode::test::iso_plastic_cases {
 
 inline constexpr auto solid = AnalysisKind::solid;
 inline constexpr auto plane_strain = AnalysisKind::plane_strain;
@@ -43,4 +43,4 @@ inline std::string iso_plastic_refusal(const Numbers& props) {
     return needed < 0 ? message : "accepted";
 }
 
-}  // namespace lode::test
+}  // namespace lode::test::iso_plastic_cases

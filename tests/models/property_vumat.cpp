@@ -66,10 +66,10 @@ VumatBlock block_of(const Case& c, const std::vector<Situation>& all, std::size_
     return block;
 }
 
-bool identical(const VumatPoint& a, const VumatPoint& b) {
-    return test::identical(a.stress, b.stress) && test::identical(a.state, b.state) &&
-           test::identical({a.internal_energy, a.inelastic_energy, a.thickness_strain_increment},
-                           {b.internal_energy, b.inelastic_energy, b.thickness_strain_increment});
+bool identical_points(const VumatPoint& a, const VumatPoint& b) {
+    return identical(a.stress, b.stress) && identical(a.state, b.state) &&
+           identical({a.internal_energy, a.inelastic_energy, a.thickness_strain_increment},
+                     {b.internal_energy, b.inelastic_energy, b.thickness_strain_increment});
 }
 
 class Vumat : public testing::TestWithParam<Case> {};
@@ -132,14 +132,15 @@ TEST_P(Vumat, AnswersDoNotDependOnTheBlock) {
         SCOPED_TRACE("block of " + std::to_string(size));
         VumatBlock block = block_of(c, all, size);
         ASSERT_EQ(block.run().stops, 0);
-        for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(identical(block.points[i], reference.points[i])) << i + 1;
+        for (std::size_t i = 0; i < size; ++i)
+            EXPECT_TRUE(identical_points(block.points[i], reference.points[i])) << i + 1;
     }
     VumatBlock reversed = block_of(c, all, all.size());
     std::reverse(reversed.points.begin(), reversed.points.end());
     ASSERT_EQ(reversed.run().stops, 0);
     std::reverse(reversed.points.begin(), reversed.points.end());
     for (std::size_t i = 0; i < all.size(); ++i)
-        EXPECT_TRUE(identical(reversed.points[i], reference.points[i])) << i + 1;
+        EXPECT_TRUE(identical_points(reversed.points[i], reference.points[i])) << i + 1;
 }
 
 // stepTime = totalTime = 0 is a probe with made-up strains: an elastic answer, no history.
@@ -166,7 +167,7 @@ TEST_P(Vumat, ProbeIsElastic) {
             for (std::size_t k = 0; k < before[i].stress.size(); ++k)
                 work += (block.points[i].stress[k] - before[i].stress[k]) * before[i].strain_increment[k];
             EXPECT_GE(work, e.dot(virgin.tangent * e) * (1.0 - 1e-12));
-            EXPECT_TRUE(test::identical(block.points[i].state, before[i].state));
+            EXPECT_TRUE(identical(block.points[i].state, before[i].state));
             continue;
         }
         const Eigen::VectorXd expected =
@@ -174,7 +175,7 @@ TEST_P(Vumat, ProbeIsElastic) {
         for (int k = 0; k < point.size(); ++k)
             EXPECT_NEAR(block.points[i].stress[static_cast<std::size_t>(k)], expected(k),
                         100.0 * c.stress_scale() * 1e-14);
-        EXPECT_TRUE(test::identical(block.points[i].state, before[i].state));
+        EXPECT_TRUE(identical(block.points[i].state, before[i].state));
         EXPECT_EQ(block.points[i].inelastic_energy, before[i].inelastic_energy);
     }
 }

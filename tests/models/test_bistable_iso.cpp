@@ -7,7 +7,7 @@
 #include "large_rotation.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_bistable_iso {
 namespace {
 
 using enum AnalysisKind;
@@ -24,7 +24,7 @@ int state(const UmatPoint& point) { return static_cast<int>(point.state(1)); }
 int transitions(const UmatPoint& point) { return static_cast<int>(point.state(10)); }
 Numbers shear(double gamma) { return {0, 0, 0, gamma, 0, 0}; }
 // Short decimal numbers: exact but for rounding.
-void expect_exact(const Numbers& actual, const Numbers& page) { expect_printed(actual, page, 2e-14); }
+void expect_exact(const Numbers& actual, const Numbers& page) { expect_digits(actual, page, 2e-14); }
 
 TEST(BistableIso, B1_DilationInTheSolid) {
     UmatPoint point = material(solid, B);
@@ -53,16 +53,16 @@ TEST(BistableIso, B2_ReversibleWithHeat) {
 TEST(BistableIso, B3_HysteresisInPlaneStress) {
     UmatPoint point = material(plane_stress, with(B, {1}));
     const auto stretch = [&](double e) { return point.advance({.dstran = {e, e, 0}}).stress; };
-    expect_printed(stretch(.02), {17.1818181818, 17.1818181818, 0});
+    expect_digits(stretch(.02), {17.1818181818, 17.1818181818, 0});
     EXPECT_EQ(state(point), 1);
     EXPECT_NEAR(point.state(4), -0.00863636363636, 5e-15);
-    expect_printed(stretch(.01), {28.6363636364, 28.6363636364, 0});
+    expect_digits(stretch(.01), {28.6363636364, 28.6363636364, 0});
     EXPECT_EQ(state(point), 1);
     EXPECT_NEAR(point.state(4), -0.0177272727273, 5e-14);
-    expect_printed(stretch(-.015), {11.4545454545, 11.4545454545, 0});
+    expect_digits(stretch(-.015), {11.4545454545, 11.4545454545, 0});
     EXPECT_EQ(state(point), 1);
     EXPECT_NEAR(point.state(4), -0.00409090909091, 5e-15);
-    expect_printed(stretch(-.01), {10, 10, 0});
+    expect_digits(stretch(-.01), {10, 10, 0});
     EXPECT_EQ(state(point), 0);
     EXPECT_NEAR(point.state(4), -0.00333333333333, 5e-15);
 }
@@ -159,7 +159,7 @@ TEST(BistableIso, ClosedLoopLeavesStress) {
         go({.02, -.02, 0, 0, 0, 0});
         go(shear(-.03));
         go({-.02, .02, 0, 0, 0, 0});
-        expect_printed(point.stress(), {-9, 9, 0, 9, 0, 0}, 1e-12);
+        expect_digits(point.stress(), {-9, 9, 0, 9, 0, 0}, 1e-12);
         EXPECT_EQ(state(point), 0);
     }
 }
@@ -331,4 +331,4 @@ TEST(BistableIso, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_bistable_iso

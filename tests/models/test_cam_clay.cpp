@@ -12,7 +12,7 @@
 #include "lode/soil/cam_clay.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_cam_clay {
 namespace {
 
 using enum AnalysisKind;
@@ -991,4 +991,4 @@ TEST(CamClay, ExplicitProbeIsElastic) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_cam_clay

@@ -2,7 +2,7 @@
 #include "coh_support.hpp"
 #include "lode/cohesive/coh_coupled.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_coupled {
 namespace {
 
 const char* const keyword = "COH_COUPLED";
@@ -192,4 +192,4 @@ TEST(CohCoupled, LargeJumpsAreFailureNotNoise) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_coupled

@@ -2,7 +2,7 @@
 #include "coh_support.hpp"
 #include "lode/cohesive/coh_cubic.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_cubic {
 namespace {
 
 const char* const keyword = "COH_CUBIC";
@@ -156,4 +156,4 @@ TEST(CohCubic, ContactAfterFailure) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_cubic

@@ -2,7 +2,7 @@
 #include "coh_support.hpp"
 #include "lode/cohesive/coh_exponential.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_exponential {
 namespace {
 
 const char* const keyword = "COH_EXPONENTIAL";
@@ -167,4 +167,4 @@ TEST(CohExponential, ContactAfterFailure) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_exponential

@@ -1,7 +1,7 @@
 // COH_LINEAR: the verification cases and failure modes of page 40.
 #include "coh_support.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_linear {
 namespace {
 
 const char* const keyword = "COH_LINEAR";
@@ -80,4 +80,4 @@ TEST(CohLinear, FreeFace) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_linear

@@ -2,7 +2,7 @@
 #include "coh_support.hpp"
 #include "lode/cohesive/coh_mixed.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_mixed {
 namespace {
 
 const char* const keyword = "COH_MIXED";
@@ -784,4 +784,4 @@ TEST(CohMixed, TangentJumpsAtReversal) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_mixed

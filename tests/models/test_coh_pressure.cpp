@@ -1,7 +1,7 @@
 // COH_PRESSURE: the verification cases and failure modes of page 40.
 #include "coh_support.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_pressure {
 namespace {
 
 const char* const keyword = "COH_PRESSURE";
@@ -83,4 +83,4 @@ TEST(CohPressure, JumpsWithoutStiffness) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_pressure

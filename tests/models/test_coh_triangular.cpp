@@ -10,7 +10,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_coh_triangular {
 namespace {
 
 constexpr AnalysisKind flat = AnalysisKind::cohesive_2d, spatial = AnalysisKind::cohesive_3d;
@@ -444,4 +444,4 @@ TEST(CohTriangular, TangentJumpsAtReversalAndAtContact) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_coh_triangular

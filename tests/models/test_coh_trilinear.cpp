@@ -2,7 +2,7 @@
 #include "coh_support.hpp"
 #include "lode/cohesive/coh_trilinear.hpp"
 
-namespace lode::test::coh {
+namespace lode::test::coh::test_coh_trilinear {
 namespace {
 
 const char* const keyword = "COH_TRILINEAR";
@@ -174,4 +174,4 @@ TEST(CohTrilinear, ContactAfterFailure) {
 }
 
 }  // namespace
-}  // namespace lode::test::coh
+}  // namespace lode::test::coh::test_coh_trilinear

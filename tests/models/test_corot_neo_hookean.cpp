@@ -8,7 +8,7 @@
 #include "hyperelastic.hpp"
 #include "lode/hyperelastic/corot_neo_hookean.hpp"
 
-namespace lode::test {
+namespace lode::test::test_corot_neo_hookean {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -327,4 +327,4 @@ TEST(CorotNeoHookean, BadConstantsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_corot_neo_hookean

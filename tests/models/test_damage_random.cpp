@@ -7,7 +7,7 @@
 
 #include "damage_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_damage_random {
 namespace {
 
 using damage_cases::LawCode, damage_cases::laws, damage_cases::in_kind;
@@ -196,4 +196,4 @@ TEST(DamageRandom, PhaseField) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_damage_random

@@ -8,7 +8,7 @@
 #include "hyperelastic.hpp"
 #include "lode/hyperelastic/disney_snow.hpp"
 
-namespace lode::test {
+namespace lode::test::test_disney_snow {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain;
@@ -375,4 +375,4 @@ TEST(DisneySnow, BadConstantsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_disney_snow

@@ -8,7 +8,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_drucker_prager {
 namespace {
 
 constexpr auto solid = AnalysisKind::solid;
@@ -686,4 +686,4 @@ TEST(DruckerPrager, ThermoelasticHeatNeedsAbsoluteTemperature) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_drucker_prager

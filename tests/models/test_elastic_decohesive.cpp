@@ -10,7 +10,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_elastic_decohesive {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -935,4 +935,4 @@ TEST(ElasticDecohesive, CuttingPlaneAsksForHalfTheIncrement) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_elastic_decohesive

@@ -7,7 +7,7 @@
 #include "finite_strain.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_he_iso_plastic {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -399,4 +399,4 @@ TEST(HeIsoPlastic, LargeIncrements) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_he_iso_plastic

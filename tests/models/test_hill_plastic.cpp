@@ -8,7 +8,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_hill_plastic {
 namespace {
 
 constexpr auto solid = AnalysisKind::solid;
@@ -498,4 +498,4 @@ TEST(HillPlastic, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_hill_plastic

@@ -5,7 +5,7 @@
 
 #include "gas_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_ideal_gas {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain;
@@ -258,4 +258,4 @@ TEST(IdealGas, RefusesBadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_ideal_gas

@@ -6,7 +6,7 @@
 #include "damage_support.hpp"
 #include "lode/damage/iso_damage.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_damage {
 namespace {
 
 using namespace damage_cases;
@@ -510,4 +510,4 @@ TEST(IsoDamage, ExpandsWithHeatAndMoisture) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_damage

@@ -6,8 +6,10 @@
 
 #include "iso_plastic_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_plastic {
 namespace {
+
+using namespace iso_plastic_cases;
 
 const Numbers steel = {200000.0, 0.3, 400.0, 1, 2000.0};
 
@@ -193,4 +195,4 @@ TEST(IsoPlastic, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_plastic

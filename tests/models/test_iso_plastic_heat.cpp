@@ -6,8 +6,10 @@
 #include "iso_plastic_support.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_plastic_heat {
 namespace {
+
+using namespace iso_plastic_cases;
 
 // PROPS indices.
 enum { ALPHA = 15, TREF = 17, TABS, RHOCV, CHI, TMODE, METHOD, NSUB };
@@ -298,4 +300,4 @@ TEST(IsoPlasticHeat, WhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_plastic_heat

@@ -4,9 +4,10 @@
 #include "iso_plastic_support.hpp"
 #include "lode/plasticity/iso_plastic_description.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_plastic_iterations {
 namespace {
 
+using namespace iso_plastic_cases;
 using iso_plastic::METHOD, iso_plastic::NSUB;
 
 const Numbers linear = {200000.0, 0.3, 400.0, 1, 2000.0}, perfect = {200000.0, 0.3, 400.0, 0};
@@ -121,4 +122,4 @@ TEST(IsoPlasticIterations, TheBracketIsSeenAtWork) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_plastic_iterations

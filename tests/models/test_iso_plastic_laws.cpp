@@ -5,8 +5,10 @@
 
 #include "iso_plastic_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_plastic_laws {
 namespace {
+
+using namespace iso_plastic_cases;
 
 const Numbers dislocations =
     iso_plastic_props({128000.0, 0.34, 10.0, 7, 1e7, 1e8, 2.56e-7, 1e6, 0.25, 3.06, 0.25, 0.06, 3.2, 50.0},
@@ -313,4 +315,4 @@ TEST(IsoPlasticLaws, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_plastic_laws

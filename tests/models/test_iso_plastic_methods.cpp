@@ -6,8 +6,10 @@
 #include "iso_plastic_support.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_plastic_methods {
 namespace {
+
+using namespace iso_plastic_cases;
 
 enum { METHOD = 22, NSUB = 23, STOL = 34 };
 
@@ -236,4 +238,4 @@ TEST(IsoPlasticMethods, StartAnywhere) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_plastic_methods

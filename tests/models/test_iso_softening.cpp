@@ -7,7 +7,7 @@
 #include "lode/damage/iso_softening.hpp"
 #include "softening_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_iso_softening {
 namespace {
 
 using namespace softening;
@@ -893,4 +893,4 @@ TEST(IsoSoftening, DamageOnlyGrows) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_iso_softening

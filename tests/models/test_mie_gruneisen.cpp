@@ -9,7 +9,7 @@
 #include "lode/eos/shock_curve.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_mie_gruneisen {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain;
@@ -503,4 +503,4 @@ TEST(MieGruneisen, RefusesBadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_mie_gruneisen

@@ -8,7 +8,7 @@
 #include "hyperelastic.hpp"
 #include "lode/hyperelastic/mooney_rivlin.hpp"
 
-namespace lode::test {
+namespace lode::test::test_mooney_rivlin {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -361,4 +361,4 @@ TEST(MooneyRivlin, BadConstantsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_mooney_rivlin

@@ -8,7 +8,7 @@
 #include "hyperelastic.hpp"
 #include "lode/hyperelastic/neo_hookean.hpp"
 
-namespace lode::test {
+namespace lode::test::test_neo_hookean {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -349,4 +349,4 @@ TEST(NeoHookean, BadConstantsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_neo_hookean

@@ -5,7 +5,7 @@
 #include "lode/damage/ortho_softening.hpp"
 #include "softening_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_ortho_softening {
 namespace {
 
 using namespace softening;
@@ -246,4 +246,4 @@ TEST(OrthoSoftening, ThermalCracking) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_ortho_softening

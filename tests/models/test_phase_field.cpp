@@ -6,7 +6,7 @@
 #include "damage_support.hpp"
 #include "lode/damage/phase_field.hpp"
 
-namespace lode::test {
+namespace lode::test::test_phase_field {
 namespace {
 
 using namespace damage_cases;
@@ -737,4 +737,4 @@ TEST(PhaseField, InitialStress) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_phase_field

@@ -3,7 +3,7 @@
 
 #include "poro_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_poro_iso {
 namespace {
 
 constexpr auto solid = AnalysisKind::solid;
@@ -176,4 +176,4 @@ TEST(PoroIso, BadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_poro_iso

@@ -1,7 +1,7 @@
 // PORO_ORTHO: the verification cases of page 45, section 7.
 #include "poro_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_poro_ortho {
 namespace {
 
 Numbers set_o(Numbers more = {}) {
@@ -85,4 +85,4 @@ TEST(PoroOrtho, BadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_poro_ortho

@@ -1,7 +1,7 @@
 // PORO_TRANSISO: the verification cases of page 45, section 7.
 #include "poro_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_poro_transiso {
 namespace {
 
 Numbers set_t(Numbers more = {}) {
@@ -103,4 +103,4 @@ TEST(PoroTransiso, TiltedAxesInThePlane) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_poro_transiso

@@ -3,7 +3,7 @@
 
 #include "poro_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_porous {
 namespace {
 
 constexpr auto solid = AnalysisKind::solid;
@@ -244,4 +244,4 @@ TEST(Porous, UndrainedClay) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_porous

@@ -3,7 +3,7 @@
 
 #include "liquid_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_sph_liquid {
 namespace {
 
 constexpr double K0 = liquid_K0;
@@ -66,4 +66,4 @@ TEST(SphLiquid, Failures) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_sph_liquid

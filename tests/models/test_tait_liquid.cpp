@@ -3,7 +3,7 @@
 
 #include "liquid_support.hpp"
 
-namespace lode::test {
+namespace lode::test::test_tait_liquid {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid;
@@ -95,4 +95,4 @@ TEST(TaitLiquid, ProbeOfAnExplicitHost) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_tait_liquid

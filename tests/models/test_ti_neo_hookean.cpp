@@ -8,7 +8,7 @@
 #include "hyperelastic.hpp"
 #include "lode/hyperelastic/ti_neo_hookean.hpp"
 
-namespace lode::test {
+namespace lode::test::test_ti_neo_hookean {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -433,4 +433,4 @@ TEST(TiNeoHookean, BadConstantsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_ti_neo_hookean

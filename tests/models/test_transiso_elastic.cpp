@@ -10,7 +10,7 @@
 #include "lode/elastic/orthotropic_moduli.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_transiso_elastic {
 namespace {
 
 using enum AnalysisKind;
@@ -55,7 +55,7 @@ TEST(TransisoElastic, StiffnessEntries) {
 
 TEST(TransisoElastic, T1_SolidIncrement) {
     const Answer answer = material(solid).advance({.dstran = increment});
-    expect_printed(answer.stress, {12.2693788367, 4.55509312246, 75.0473415878, 1.28571428571, -3.0, 4.0});
+    expect_digits(answer.stress, {12.2693788367, 4.55509312246, 75.0473415878, 1.28571428571, -3.0, 4.0});
     double work = 0.0;
     for (std::size_t i = 0; i < 6; ++i) work += 0.5 * answer.stress[i] * increment[i];
     EXPECT_NEAR(answer.sse, work, 1e-14);
@@ -63,32 +63,32 @@ TEST(TransisoElastic, T1_SolidIncrement) {
 
 TEST(TransisoElastic, T2_GeneralAxesAndHeat) {
     UmatPoint point = material(solid, {-1e-6, 3e-5, 0.0, 0.0, 1.0, 30.0, 20.0, 10.0});
-    expect_printed(point.advance({.dstran = increment, .dtemp = 50.0}).stress,
-                   {77.8051642666, 9.11044423936, 1.49440277687, 50.3100857203, -38.4196708586, -17.7010847222});
+    expect_digits(point.advance({.dstran = increment, .dtemp = 50.0}).stress,
+                  {77.8051642666, 9.11044423936, 1.49440277687, 50.3100857203, -38.4196708586, -17.7010847222});
     EXPECT_EQ(point.state(3), 50.0);
 }
 
 TEST(TransisoElastic, T3_PlaneStress) {
     UmatPoint point = material(plane_stress, {-1e-6, 3e-5, 0.0, 0.0, 1.0, 30.0});
-    expect_printed(point.advance({.dstran = {1e-3, 2e-4, 5e-4}, .dtemp = 50.0}).stress,
-                   {109.615572693, 27.9677772344, 66.2808617995});
+    expect_digits(point.advance({.dstran = {1e-3, 2e-4, 5e-4}, .dtemp = 50.0}).stress,
+                  {109.615572693, 27.9677772344, 66.2808617995});
     EXPECT_NEAR(point.state(1), 1.58678893858e-3, 5e-15);
 }
 
 TEST(TransisoElastic, T4_PlaneStrainAcrossTheFibres) {
     UmatPoint point = material(plane_strain, {-1e-6, 3e-5, 0.0, 0.0, 3.0});
-    expect_printed(point.advance({.dstran = {1e-3, 2e-4, 0, 5e-4}, .dtemp = 50.0}).stress,
-                   {-10.9646238685, -16.1074810113, -1.12163146395, 1.60714285714});
+    expect_digits(point.advance({.dstran = {1e-3, 2e-4, 0, 5e-4}, .dtemp = 50.0}).stress,
+                  {-10.9646238685, -16.1074810113, -1.12163146395, 1.60714285714});
 }
 
 TEST(TransisoElastic, T5_AxesTurnWithTheHost) {
     UmatPoint point = material(solid, {0.0, 0.0, 0.0, 0.0, 1.0});
     const Numbers pull = {1e-3, 0, 0, 0, 0, 0};
-    expect_printed(point.advance({.dstran = pull}).stress, {142.753095412, 4.58849235251, 4.58849235251, 0, 0, 0});
-    expect_printed(point.advance({.drot = about_3(40.0)}).stress,
-                   {85.6668096516, 61.6747781124, 4.58849235251, 68.0327861422, 0, 0});
-    expect_printed(point.advance({.dstran = pull}).stress,
-                   {143.754182149, 96.4346760537, 9.11282228203, 105.824718218, 0, 0});
+    expect_digits(point.advance({.dstran = pull}).stress, {142.753095412, 4.58849235251, 4.58849235251, 0, 0, 0});
+    expect_digits(point.advance({.drot = about_3(40.0)}).stress,
+                  {85.6668096516, 61.6747781124, 4.58849235251, 68.0327861422, 0, 0});
+    expect_digits(point.advance({.dstran = pull}).stress,
+                  {143.754182149, 96.4346760537, 9.11282228203, 105.824718218, 0, 0});
     EXPECT_NEAR(point.state(5), -0.233955556881, 5e-13);
     EXPECT_NEAR(point.state(6), -0.642787609687, 5e-13);
     EXPECT_NEAR(point.state(8), 0.642787609687, 5e-13);
@@ -97,8 +97,8 @@ TEST(TransisoElastic, T5_AxesTurnWithTheHost) {
 
 TEST(TransisoElastic, T6_TotalLawInSimpleShear) {
     UmatPoint point = material(solid, {0, 0, 0, 0, 1, 0, 0, 0, 1});
-    expect_printed(point.advance({.dfgrd1 = simple_shear(0.2)}).stress,
-                   {-435.160018914, -65.2732114505, 43.4510573062, 1052.50125541, 0, 0});
+    expect_digits(point.advance({.dfgrd1 = simple_shear(0.2)}).stress,
+                  {-435.160018914, -65.2732114505, 43.4510573062, 1052.50125541, 0, 0});
     // STATEV 5-13: Rp - I; Rp turns clockwise by atan(gamma/2).
     const double angle = -std::atan(0.1);
     EXPECT_NEAR(point.state(5), std::cos(angle) - 1.0, 1e-16);
@@ -201,8 +201,8 @@ TEST(TransisoElastic, LargeRotationWithPolarIncrements) {
 TEST(TransisoElastic, LargeRotationWithTheTotalLaw) {
     UmatPoint point = material(solid, {0, 0, 0, 0, 1, 0, 0, 0, 1});
     const auto at = [](double, double) { return turn_and_stretch(1.0); };
-    expect_printed(point.advance({.dfgrd1 = at(0.0, 1.0)}).stress,
-                   {704.20841774, 2076.59769785, 48.41264439, 1234.43272292, 0, 0});
+    expect_digits(point.advance({.dfgrd1 = at(0.0, 1.0)}).stress,
+                  {704.20841774, 2076.59769785, 48.41264439, 1234.43272292, 0, 0});
 }
 
 std::string refusal(const Numbers& props, int ndi = 3, int nshr = 3) {
@@ -280,4 +280,4 @@ TEST(TransisoElastic, InvertedElementAsksForASmallerIncrement) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_transiso_elastic

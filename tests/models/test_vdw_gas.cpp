@@ -4,7 +4,7 @@
 #include "gas_support.hpp"
 #include "lode/eos/vdw_gas.hpp"
 
-namespace lode::test {
+namespace lode::test::test_vdw_gas {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid;
@@ -198,4 +198,4 @@ TEST(VdwGas, RefusesBadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_vdw_gas

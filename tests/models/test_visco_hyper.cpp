@@ -9,7 +9,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_visco_hyper {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -253,4 +253,4 @@ TEST(ViscoHyper, RefusesBadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_visco_hyper

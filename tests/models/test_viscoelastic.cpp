@@ -8,7 +8,7 @@
 #include "umat_point.hpp"
 #include "vumat_block.hpp"
 
-namespace lode::test {
+namespace lode::test::test_viscoelastic {
 namespace {
 
 constexpr AnalysisKind solid = AnalysisKind::solid, plane_strain = AnalysisKind::plane_strain,
@@ -480,4 +480,4 @@ TEST(Viscoelastic, RefusesBadConstants) {
 }
 
 }  // namespace
-}  // namespace lode::test
+}  // namespace lode::test::test_viscoelastic

@@ -49,7 +49,7 @@ void follow(UmatPoint& point, int increments, const Path& path, const MakeIncrem
 }
 
 // Agreement with numbers printed with twelve significant digits.
-inline void expect_printed(const Numbers& actual, const Numbers& page, double digits = 5e-12) {
+inline void expect_digits(const Numbers& actual, const Numbers& page, double digits = 5e-12) {
     ASSERT_EQ(actual.size(), page.size());
     for (std::size_t i = 0; i < page.size(); ++i)
         EXPECT_NEAR(actual[i], page[i], digits * std::max(largest(page), 1e-300)) << "component " << i + 1;
