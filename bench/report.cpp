@@ -31,9 +31,12 @@ std::string load_average() {
     return getloadavg(load, 1) == 1 ? fmt::format("{:.1f}", load[0]) : "unknown";
 }
 
-// Nanoseconds of U and V on the kind of machine that the targets were set on, with Fortran as it is usually written by
-// hand. The baselines here are tuned beyond that, which makes their ratios the harder ones.
-constexpr double reference_u = 68.0, reference_v = 5.3;
+// Nanoseconds of U and V where the targets were set, with Fortran that is not tuned. The baselines here are tuned
+// beyond that, which makes their ratios the harder ones.
+constexpr double target_u = 68.0, target_v = 5.3;
+// What the usual forms take on that kind of machine (median of seven runs of this benchmark): by theirs in this run the
+// reference follows the machine.
+constexpr double usual_u = 79.7, usual_v = 16.2;
 
 std::string nanoseconds(double ns) { return ns < 10 ? fmt::format("{:.2f}", ns) : fmt::format("{:.1f}", ns); }
 
@@ -81,9 +84,12 @@ class Report {
                "once,\n"
                "  blocks in full vectors. Where the targets were set, carefully written but untuned Fortran took\n";
         out_ << fmt::format(
-            "  {:.0f} ns (U) and {:.1f} ns (V) on the same kind of machine. *of reference* is the ratio to those.\n"
+            "  {:.0f} ns (U) and {:.1f} ns (V), and the usual forms below {:.1f} and {:.1f} ns on a quiet machine of "
+            "that kind.\n"
+            "  *of reference* is the ratio to the former, scaled by the usual forms of this run: to {:.1f} and {:.2f} "
+            "ns.\n"
             "  *met*: `yes` by the tuned baseline, `by reference` by the other only.\n\n",
-            reference_u, reference_v);
+            target_u, target_v, usual_u, usual_v, reference(Interface::umat), reference(Interface::vumat));
         out_ << fmt::format(
             "Machine: {}, {} logical processors, load average at the end {}. Compilers: {}; Fortran baselines: {}.\n"
             "Library {}, kernels for {}. Run of {}.\n\n",
@@ -125,6 +131,12 @@ class Report {
         if (any) out_ << '\n';
     }
 
+    double reference(Interface interface) const {
+        const bool umat = interface == Interface::umat;
+        const double now = median(umat ? usual_form_u : usual_form_v), usual = umat ? usual_u : usual_v;
+        return (umat ? target_u : target_v) * (now > 0 ? now / usual : 1.0);
+    }
+
     std::string ratio(double ns, const Case& c) const {
         const bool umat = c.interface == Interface::umat;
         const double unit = median(umat ? unit_u : unit_v);
@@ -133,7 +145,7 @@ class Report {
 
     void table(Interface interface, int points) {
         const double unit = median(interface == Interface::umat ? unit_u : unit_v);
-        const double reference = interface == Interface::umat ? reference_u : reference_v;
+        const double reference_unit = reference(interface);
         const char* const symbol = interface == Interface::umat ? "U" : "V";
         bool any = false;
         for (const Case& c : cases_) {
@@ -153,11 +165,11 @@ class Report {
             out_ << fmt::format("| {} | {} | {} | {:.1f} % | {} | {} | {:.2f} | {} | {} |\n", c.material, c.kind,
                                 nanoseconds(m->ns), 100 * m->cv,
                                 m->active < 0 ? "" : fmt::format("{:.0f} %", 100 * m->active), ratio(m->ns, c),
-                                m->ns / reference, has_target ? fmt::format("{:.1f} {}", c.target, symbol) : "",
-                                !has_target                     ? ""
-                                : measured_ratio <= c.target    ? "yes"
-                                : m->ns / reference <= c.target ? "by reference"
-                                                                : "**no**");
+                                m->ns / reference_unit, has_target ? fmt::format("{:.1f} {}", c.target, symbol) : "",
+                                !has_target                          ? ""
+                                : measured_ratio <= c.target         ? "yes"
+                                : m->ns / reference_unit <= c.target ? "by reference"
+                                                                     : "**no**");
         }
         if (any) out_ << '\n';
     }

@@ -41,6 +41,8 @@ class Collector : public benchmark::ConsoleReporter {
 // Names of the runs that the ratios refer to.
 inline constexpr const char* unit_u = "umat/baseline/J2, Fortran/3D";
 inline constexpr const char* unit_v = "vumat128/baseline/J2, Fortran vectorised/3D";
+inline constexpr const char* usual_form_u = "umat/baseline/J2, Fortran usual form/3D";
+inline constexpr const char* usual_form_v = "vumat128/baseline/J2, Fortran usual form/3D";
 inline constexpr const char* copy_run = "copy";
 inline constexpr int small_block = 128, odd_block = 144, large_block = 1000000;
 
