@@ -152,12 +152,13 @@ class Registry {
     }
 };
 
-Material hand_written(std::vector<double> constants, double strain_scale, bool finite_strain = false) {
+Material hand_written(std::vector<double> constants, double strain_scale, bool finite_strain = false,
+                      int state_count = 1) {
     Material m;
     m.name = "BASELINE";
     m.constants = std::move(constants);
-    m.state_count = 1;
-    m.initial_state = {0.0};
+    m.state_count = state_count;
+    m.initial_state.assign(static_cast<std::size_t>(state_count), 0.0);
     m.strain_scale = strain_scale;
     m.finite_strain = finite_strain;
     return m;
@@ -167,6 +168,8 @@ void register_baselines(Registry& registry) {
     const Layout solid{3, 3};
     const Material elastic = hand_written({200000, 0.3}, 1e-3);
     const Material j2 = hand_written({200000, 0.3, 400, 2000}, 0.02);
+    const Material elastic_with_state = hand_written(elastic.constants, elastic.strain_scale, false, 4);
+    const Material j2_with_state = hand_written(j2.constants, j2.strain_scale, false, 4);
     const Material voce = hand_written({200000, 0.3, 400, 150, 20, 500}, 0.02);
     const Material rubber = hand_written({1, 10}, 0.3, true);
     const auto named = [](const char* material) {
@@ -186,6 +189,10 @@ void register_baselines(Registry& registry) {
         registry.vumat(named("J2, Fortran vectorised"), baseline_vumat_j2_simd_, j2, solid, count);
         registry.vumat(named("J2, Fortran usual form"), baseline_vumat_j2_, j2, solid, count);
         registry.vumat(named("elastic, Fortran"), baseline_vumat_elastic_, elastic, solid, count);
+        registry.vumat(named("J2, Fortran vectorised, state of ISO_PLASTIC"), baseline_vumat_j2_simd_, j2_with_state,
+                       solid, count);
+        registry.vumat(named("elastic, Fortran, state of ISO_ELASTIC"), baseline_vumat_elastic_, elastic_with_state,
+                       solid, count);
     }
 }
 

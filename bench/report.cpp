@@ -80,6 +80,9 @@ class Report {
                "- *active* is the share of points whose STATEV changes in the measured increment.\n"
                "- Numbers are medians of the repetitions, *cv* is their coefficient of variation. Targets are for the\n"
                "  3D column (cohesive: both), in U and V; ratios, not nanoseconds, carry over to other machines.\n"
+               "- *State of* a model: the same Fortran when it also keeps the state variables and energies of that "
+               "model's\n"
+               "  page, as the host demands of it. What is left of a ratio by that is arithmetic.\n"
                "- The baselines are tuned until nothing more was found: every reciprocal once, every entry stored "
                "once,\n"
                "  blocks in full vectors. Where the targets were set, carefully written but untuned Fortran took\n";

@@ -3,7 +3,8 @@
 ! `simd` marks the hand-vectorised form: no branch depends on a point, and the compiler is told that points are
 ! independent. The other form is the usual one: a loop over the block around code for one point.
 
-! Isotropic linear elasticity. PROPS: E, nu
+! Isotropic linear elasticity. PROPS: E, nu. With four state variables it also keeps what ISO_ELASTIC keeps: the sum of
+! the temperature increments in the third, the others and the inelastic energy as they are.
 subroutine baseline_vumat_elastic(nblock, ndir, nshr, nstatev, nfieldv, nprops, lanneal, steptime, totaltime, dt, &
    cmname, coordmp, charlength, props, density, straininc, relspininc, tempold, stretchold, &
    defgradold, fieldold, stressold, stateold, enerinternold, enerinelasold, tempnew, &
@@ -44,6 +45,15 @@ subroutine baseline_vumat_elastic(nblock, ndir, nshr, nstatev, nfieldv, nprops, 
                                              + (2*stressold(k, 4) + d(4))*straininc(k, 4) &
                                              + (2*stressold(k, 5) + d(5))*straininc(k, 5) &
                                              + (2*stressold(k, 6) + d(6))*straininc(k, 6))/density(k)
+   end do
+   if (nstatev < 4) return
+   !$omp simd
+   do k = 1, nblock
+      statenew(k, 1) = stateold(k, 1)
+      statenew(k, 2) = stateold(k, 2)
+      statenew(k, 3) = stateold(k, 3) + (tempnew(k) - tempold(k))
+      statenew(k, 4) = stateold(k, 4)
+      enerinelasnew(k) = enerinelasold(k)
    end do
 end subroutine baseline_vumat_elastic
 
@@ -98,7 +108,8 @@ subroutine baseline_vumat_j2(nblock, ndir, nshr, nstatev, nfieldv, nprops, lanne
    end do
 end subroutine baseline_vumat_j2
 
-! J2 with linear isotropic hardening, hand-vectorised. PROPS: E, nu, yield stress, H. State: eq. plastic strain
+! J2 with linear isotropic hardening, hand-vectorised. PROPS: E, nu, yield stress, H. State: eq. plastic strain; with four
+! state variables also, as ISO_PLASTIC, its rate, the flow stress and a thermal part of it, which is 0.
 subroutine baseline_vumat_j2_simd(nblock, ndir, nshr, nstatev, nfieldv, nprops, lanneal, steptime, totaltime, dt, &
    cmname, coordmp, charlength, props, density, straininc, relspininc, tempold, stretchold, &
    defgradold, fieldold, stressold, stateold, enerinternold, enerinelasold, tempnew, &
@@ -114,7 +125,7 @@ subroutine baseline_vumat_j2_simd(nblock, ndir, nshr, nstatev, nfieldv, nprops, 
    real(real64), intent(in) :: defgradnew(nblock, 9), fieldnew(nblock, *)
    real(real64), intent(inout) :: stressnew(nblock, 6), statenew(nblock, *), enerinternnew(nblock), enerinelasnew(nblock)
    real(real64) :: shear2, shear3, lambda, hardening, compliance, volumetric, mean, s1, s2, s3, s4, s5, s6, q, flow, dp, beta
-   real(real64) :: work, inverse_density
+   real(real64) :: work, inverse_density, rate
    integer :: k
 
    shear2 = props(1)/(1 + props(2))
@@ -159,5 +170,13 @@ subroutine baseline_vumat_j2_simd(nblock, ndir, nshr, nstatev, nfieldv, nprops, 
       inverse_density = 1/density(k)
       enerinternnew(k) = enerinternold(k) + work*inverse_density
       enerinelasnew(k) = enerinelasold(k) + (flow + 0.5_real64*hardening*dp)*dp*inverse_density
+   end do
+   if (nstatev < 4) return
+   rate = 1/dt
+   !$omp simd
+   do k = 1, nblock
+      statenew(k, 2) = (statenew(k, 1) - stateold(k, 1))*rate
+      statenew(k, 3) = props(3) + hardening*statenew(k, 1)
+      statenew(k, 4) = 0
    end do
 end subroutine baseline_vumat_j2_simd
