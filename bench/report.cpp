@@ -82,7 +82,7 @@ class Report {
                "  3D column (cohesive: both), in U and V; ratios, not nanoseconds, carry over to other machines.\n"
                "- *State of* a model: the same Fortran when it also keeps the state variables and energies of that "
                "model's\n"
-               "  page, as the host demands of it. What is left of a ratio by that is arithmetic.\n"
+               "  page. It shows what of a ratio is due to them.\n"
                "- The baselines are tuned until nothing more was found: every reciprocal once, every entry stored "
                "once,\n"
                "  blocks in full vectors. Where the targets were set, carefully written but untuned Fortran took\n";
