@@ -168,27 +168,30 @@ LODE_INLINE bool vumat_lanes(const Kernel& kernel, const VumatArguments& a, Time
         kernel.template update<kind, Batch>(increment, point, none);
         if (point.warning != nullptr) status.warning = point.warning;
         if (point.failure == nullptr) [[likely]] {
-            for (int i = 0; i < n; ++i)
-                point.stress[i].store_unaligned(a.stress_new + vumat_column<kind>(i) * stride + first);
             const Batch inverse_density = 1.0 / Batch::load_unaligned(a.density + first);
-            const Batch dissipation = point.plastic_dissipation + point.viscous_dissipation;
-            const Batch dissipated =
-                Batch::load_unaligned(a.inelastic_energy_old + first) + dissipation * inverse_density;
-            Batch energy;
-            if constexpr (finite_strain) {
-                energy = point.elastic_energy * inverse_density + dissipated;
-            } else {
-                const Batch work =
-                    0.5 * (twice_work_start + double_contraction(point.stress, increment.strain_increment));
-                energy = Batch::load_unaligned(a.internal_energy_old + first) + work * inverse_density;
+            const Batch dissipation = (point.plastic_dissipation + point.viscous_dissipation) * inverse_density;
+            Batch stored;
+            if constexpr (finite_strain) stored = point.elastic_energy * inverse_density;
+            else
+                stored = 0.5 * (twice_work_start + double_contraction(point.stress, increment.strain_increment)) *
+                         inverse_density;
+            // What a model has read beyond strain and stress shows here where it is not a number.
+            const auto finite = is_finite(Batch(stored + dissipation));
+            if (all(finite)) [[likely]] {
+                const Batch dissipated = Batch::load_unaligned(a.inelastic_energy_old + first) + dissipation;
+                const Batch energy =
+                    stored + (finite_strain ? dissipated : Batch::load_unaligned(a.internal_energy_old + first));
+                for (int i = 0; i < n; ++i)
+                    point.stress[i].store_unaligned(a.stress_new + vumat_column<kind>(i) * stride + first);
+                energy.store_unaligned(a.internal_energy_new + first);
+                dissipated.store_unaligned(a.inelastic_energy_new + first);
+                if constexpr (kind == AnalysisKind::plane_stress) {
+                    Batch(0.0).store_unaligned(a.stress_new + 2 * stride + first);
+                    point.thickness_strain_increment.store_unaligned(a.strain_increment + 2 * stride + first);
+                }
+                return true;
             }
-            energy.store_unaligned(a.internal_energy_new + first);
-            dissipated.store_unaligned(a.inelastic_energy_new + first);
-            if constexpr (kind == AnalysisKind::plane_stress) {
-                Batch(0.0).store_unaligned(a.stress_new + 2 * stride + first);
-                point.thickness_strain_increment.store_unaligned(a.strain_increment + 2 * stride + first);
-            }
-            return true;
+            point.fail(!finite, "the answer is not finite: look at tempOld, tempNew, the fields, density and stateOld");
         }
     }
     status.failure = point.failure;

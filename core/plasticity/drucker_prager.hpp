@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "lode/elastic/isotropic_moduli.hpp"
+#include "lode/elastic/known_field.hpp"
 #include "lode/material/thermal_block.hpp"
 #include "lode/plasticity/drucker_prager_description.hpp"
 #include "lode/plasticity/drucker_prager_plane_stress.hpp"
@@ -43,11 +44,8 @@ class Kernel {
     LODE_INLINE void update(const Increment<kind, Real>& increment, Point<kind, Real>& point, T& tangent) const {
         Course<kind, Real> course;
         course.strain = mechanical_strain(increment, point.state);
-        if (c.thermal_expansion != 0.0 || c.moisture_expansion != 0.0) {
-            const Mask<Real> unknown = !is_finite(course.strain[0]);
-            if (any(unknown)) [[unlikely]]
-                return point.fail(unknown, "temperature or field 1 on entry is not finite");
-        }
+        if (c.thermal_expansion != 0.0 || c.moisture_expansion != 0.0)
+            if (!is_known(course.strain[0], point, "temperature or field 1 on entry is not finite")) return;
         course.alpha = point.state[EQPS];
         course.keeps_plastic_strain = keeps_plastic_strain(point);
         if constexpr (Law::softens) {

@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "lode/elastic/known_field.hpp"
 #include "lode/material/thermal_block.hpp"
 #include "lode/plasticity/hill_frame.hpp"
 #include "lode/plasticity/hill_plastic_description.hpp"
@@ -56,11 +57,10 @@ class Kernel {
         const Strain<kind, Real> total = frame.to_material(increment.strain_increment);
         course.strain = total;
         const Real free_thickness = remove_free_strain(increment, state, course.strain);
-        if (c.expands_with_heat || c.expands_with_moisture) {
-            const Mask<Real> unknown = !is_finite(trace(course.strain) + free_thickness);
-            if (any(unknown)) [[unlikely]]
-                return point.fail(unknown, "temperature or field 1 on entry is not finite");
-        }
+        if (c.expands_with_heat || c.expands_with_moisture)
+            if (!is_known(Real(trace(course.strain) + free_thickness), point,
+                          "temperature or field 1 on entry is not finite"))
+                return;
         course.alpha = state[EQPS];
         course.g = hill_return.at(course.alpha);
         const bool thermoelastic = c.thermal.is_thermoelastic();

@@ -2,6 +2,7 @@
 // test, heat, state (page 20, section 1; page 25).
 #pragma once
 
+#include "lode/elastic/known_field.hpp"
 #include "lode/material/thermal_block.hpp"
 #include "lode/plasticity/iso_plastic_description.hpp"
 #include "lode/plasticity/iso_plastic_laws.hpp"
@@ -56,6 +57,8 @@ class IncrementRules {
                            Step<kind, Real, Law>& step) const {
         Surroundings<Real>& s = step.surroundings;
         step.strain = mechanical_strain(increment, point.state);
+        if (c.thermal_expansion != 0.0 || c.moisture_expansion != 0.0)
+            if (!is_known(step.strain[0], point, "temperature or field 1 on entry is not finite")) return false;
         step.alpha = point.state[EQPS];
         if constexpr (Law::softens)
             if (law_softens() && !softening_scale(increment, point, c.reference_length, unloading<kind>(),

@@ -22,6 +22,7 @@ std::string value_text(double x) {
 void expect_refusal(const UmatPoint& point, const std::vector<std::string>& words) {
     const Answer answer = point.evaluate({});
     EXPECT_EQ(answer.messages.stops, 1);
+    EXPECT_EQ(answer.messages.explicit_calls, 0);
     ASSERT_EQ(answer.messages.errors.size(), 1u);
     for (const std::string& word : words)
         EXPECT_NE(answer.first_error().find(word), std::string::npos)

@@ -36,6 +36,7 @@ std::vector<Situation> situations(const Case& c, std::size_t count) {
             if (random.chance(0.3)) next.strain = scaled(step.strain, random.log_uniform(1e-6, 1.0));
             Load load = load_of(start, next);
             load.dfgrd1 = stretch_of(*load.dfgrd1);
+            load.dtemp = static_cast<double>(all.size() % 5) - 2.0;
             const Answer answer = start.evaluate(load);
             if (answer.done() && all.size() < count && random.chance(0.5)) all.push_back({start, load});
             point.step(load_of(point, step));
@@ -50,7 +51,8 @@ VumatPoint block_point(const UmatPoint& p, const Load& load) {
     v.state = p.state();
     v.strain_increment = load.dstran;
     v.stretch = *load.dfgrd1;
-    v.temperature_old = v.temperature_new = p.temperature();
+    v.temperature_old = p.temperature();
+    v.temperature_new = p.temperature() + load.dtemp;
     v.fields_old = v.fields_new = p.fields();
     v.celent = p.celent();
     v.density = 2.0;
@@ -99,6 +101,8 @@ TEST_P(Vumat, AgreesWithUmat) {
         // Some laws keep the strain instead of the stress.
         for (std::size_t k = 0; k < rounded.dstran.size(); ++k)
             rounded.dstran[k] += (grown - 1.0) * s.point.strain()[k];
+        // A host of VUMAT gives temperatures, not their difference.
+        rounded.dtemp += (grown - 1.0) * s.point.temperature();
         const Answer neighbour = UmatPoint(s.point).stress(scaled(s.point.stress(), grown)).evaluate(rounded);
         for (std::size_t k = 0; k < umat.state.size(); ++k) {
             const double size = std::max(std::abs(umat.state[k]), strain * std::max(1.0, largest(umat.stress)));
@@ -180,19 +184,61 @@ TEST_P(Vumat, ProbeIsElastic) {
     }
 }
 
+// The first increment of a later step is none.
+TEST_P(Vumat, StepTimeZeroAloneIsNoProbe) {
+    const Case& c = GetParam();
+    const std::vector<Situation> all = situations(c, 9);
+    VumatBlock usual = block_of(c, all, all.size()), first = usual;
+    first.step_time = 0.0;
+    ASSERT_EQ(usual.run().stops, 0);
+    ASSERT_EQ(first.run().stops, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(identical_points(first.points[i], usual.points[i]));
+}
+
 TEST_P(Vumat, StopsAtNonFiniteInput) {
     const Case& c = GetParam();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     const std::vector<Situation> all = situations(c, 21);
-    for (const std::size_t bad : {std::size_t{0}, std::size_t{9}, std::size_t{20}}) {
-        VumatBlock block = block_of(c, all, all.size());
-        block.points[bad].strain_increment[0] = std::numeric_limits<double>::quiet_NaN();
+    const VumatBlock healthy = block_of(c, all, all.size());
+    const std::size_t n = healthy.points.front().stress.size(), places[] = {0, 9, 20};
+    const auto expect_stop = [&](VumatBlock block, std::size_t point) {
         const HostMessages messages = block.run();
         EXPECT_EQ(messages.stops, 1);
         ASSERT_EQ(messages.errors.size(), 1u);
+        EXPECT_EQ(messages.explicit_calls, 2);
         EXPECT_NE(messages.errors.front().find(c.model->keyword), std::string::npos);
-        EXPECT_NE(messages.errors.front().find("point " + std::to_string(bad + 1)), std::string::npos)
+        EXPECT_NE(messages.errors.front().find("point " + std::to_string(point + 1) + " "), std::string::npos)
             << messages.errors.front();
-    }
+    };
+    std::size_t turn = 0;
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t point = places[turn++ % 3];
+            SCOPED_TRACE("component " + std::to_string(i + 1) + " = " + std::to_string(bad));
+            VumatBlock strained = healthy, stressed = healthy;
+            strained.points[point].strain_increment[i] = bad;
+            expect_stop(strained, point);
+            stressed.points[point].stress[i] = bad;
+            expect_stop(stressed, point);
+        }
+    VumatBlock massless = healthy;
+    massless.points[9].density = std::numeric_limits<double>::quiet_NaN();
+    expect_stop(massless, 9);
+}
+
+// What a material does not read it need not mind.
+TEST_P(Vumat, NonFiniteTemperatureStopsOrIsNotRead) {
+    const Case& c = GetParam();
+    const std::vector<Situation> all = situations(c, 9);
+    for (double VumatPoint::*const which : {&VumatPoint::temperature_old, &VumatPoint::temperature_new})
+        for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+            VumatBlock block = block_of(c, all, all.size());
+            block.points[4].*which = bad;
+            if (block.run().stops > 0) continue;
+            const VumatPoint& p = block.points[4];
+            EXPECT_TRUE(std::isfinite(distance(p.stress, p.stress)));
+            EXPECT_TRUE(std::isfinite(p.internal_energy) && std::isfinite(p.inelastic_energy));
+        }
 }
 
 // Not inlined: GCC 12 vectorizes neighbouring conversions to float and back wrongly and forgets one of them.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "iso_plastic_support.hpp"
 #include "vumat_block.hpp"
@@ -12,11 +13,39 @@ namespace {
 using namespace iso_plastic_cases;
 
 // PROPS indices.
-enum { ALPHA = 15, TREF = 17, TABS, RHOCV, CHI, TMODE, METHOD, NSUB };
+enum { ALPHA = 15, BETA, TREF, TABS, RHOCV, CHI, TMODE, METHOD, NSUB };
 // STATEV indices.
 enum { EQPS = 1, TAD = 5, DTAD, ASTOR, PHI, HEATQ, ENTR };
 
 const Numbers steel = {200000.0, 0.3, 400.0, 1, 2000.0};
+
+// Some hosts leave the field variables uninitialised: a material that swells with one must not go on without it.
+TEST(IsoPlasticHeat, SwellingByAFieldThatIsNotANumberIsRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const AnalysisKind kind : {solid, AnalysisKind::plane_strain, AnalysisKind::plane_stress})
+        for (const double method : {0.0, 2.0, 3.0}) {
+            if (kind == AnalysisKind::plane_stress && method == 3.0) continue;
+            const Numbers props = iso_plastic_props(steel, {{BETA, 1e-3}, {METHOD, method}});
+            UmatPoint point("ISO_PLASTIC-SWELLS", kind, props);
+            Numbers dstran(static_cast<std::size_t>(point.size()), 0.0);
+            dstran[0] = 0.004;
+            point.step({.dstran = dstran});
+            const Answer answer = point.evaluate({.dstran = dstran, .dpred = {nan}});
+            EXPECT_TRUE(answer.cut);
+            EXPECT_TRUE(identical(answer.stress, point.stress()));
+            EXPECT_TRUE(identical(answer.state, point.state()));
+
+            VumatBlock block(point);
+            block.points.assign(9, block.fresh_point());
+            for (VumatPoint& p : block.points) p.strain_increment = dstran;
+            block.points[8].fields_new = {nan};
+            const HostMessages messages = block.run();
+            EXPECT_EQ(messages.stops, 1);
+            ASSERT_EQ(messages.errors.size(), 1u);
+            EXPECT_NE(messages.errors[0].find("field 1"), std::string::npos) << messages.errors[0];
+            EXPECT_NE(messages.errors[0].find("point 9 "), std::string::npos) << messages.errors[0];
+        }
+}
 
 TEST(IsoPlasticHeat, T1AdiabaticElastic) {
     const Numbers props = iso_plastic_props(steel, {{ALPHA, 1.2e-5}, {RHOCV, 3.6}, {TMODE, 3}});

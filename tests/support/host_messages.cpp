@@ -23,7 +23,10 @@ extern "C" {
                                                  std::size_t, std::size_t);
 
 void xit_() { ++lode::test::captured_messages().stops; }
-void xplb_exit_() { xit_(); }
+void xplb_exit_() {
+    ++lode::test::captured_messages().explicit_calls;
+    xit_();
+}
 void stdb_abqerr_(const int* severity, const char* text, const int*, const double*, const char*, std::size_t length,
                   std::size_t) {
     auto& messages = lode::test::captured_messages();
@@ -31,6 +34,7 @@ void stdb_abqerr_(const int* severity, const char* text, const int*, const doubl
 }
 void xplb_abqerr_(const int* severity, const char* text, const int* integers, const double* reals, const char* strings,
                   std::size_t length, std::size_t string_length) {
+    ++lode::test::captured_messages().explicit_calls;
     stdb_abqerr_(severity, text, integers, reals, strings, length, string_length);
 }
 }

@@ -10,7 +10,8 @@ namespace lode::test {
 // What this thread has been told since the last clear.
 struct HostMessages {
     std::vector<std::string> errors, warnings;
-    int stops = 0;  // calls of XIT or XPLB_EXIT
+    int stops = 0;           // calls of XIT or XPLB_EXIT
+    int explicit_calls = 0;  // of XPLB_ABQERR and XPLB_EXIT among all
 };
 HostMessages& captured_messages();
 void clear_captured_messages();
