@@ -77,20 +77,14 @@ struct DisneySnow : DisneySnowDescription {
         Response<kind, Real> now;
         now.jpm1 = jpm1_old;
         now.cpi = cpi;
-        if (all(elastic)) {
-            elastic_response(k, trial, now);
-        } else {
-            flow_response(k, f, trial, jpm1_old, now);
-            if constexpr (is_batch<Real>) {
-                if (any(elastic)) {
-                    Response<kind, Real> within;
-                    within.jpm1 = jpm1_old;
-                    within.cpi = cpi;
-                    for (int i = 0; i < components(kind); ++i) trial[i] = select(elastic, trial[i], Real(0.0));
-                    elastic_response(k, trial, within);
-                    now.take(elastic, within);
-                }
-            }
+        Response<kind, Real> within = now;
+        if (!all(elastic)) flow_response(k, f, trial, jpm1_old, now);
+        if (any(elastic)) {
+            // In one place, so that a point's last bit does not depend on what its neighbours do.
+            for (int i = 0; i < components(kind); ++i) trial[i] = select(elastic, trial[i], Real(0.0));
+            elastic_response(k, trial, within);
+            if (all(elastic)) now = within;
+            else now.take(elastic, within);
         }
         const Mask<Real> sound = is_finite(trace(now.stress) + now.energy + now.dissipation);
         if (!all(sound)) [[unlikely]]
