@@ -2,8 +2,11 @@
 #include <dlfcn.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <thread>
 
 #include "property_suite.hpp"
 #include "vumat_block.hpp"
@@ -187,6 +190,38 @@ TEST_P(Vumat, ProbeIsElastic) {
     }
 }
 
+// The thickness strain that a plane-stress host gets leaves a point of three dimensions without stress across it, and
+// with the same stress in the plane.
+TEST_P(Vumat, ThicknessStrainFreesTheSolid) {
+    const Case& c = GetParam();
+    const Case* const solid = find_case(c, AnalysisKind::solid);
+    if (c.kind != AnalysisKind::plane_stress || solid == nullptr) return;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(c, seed);
+        const UmatPoint point = c.point();
+        const Step step{scaled(random.direction(3), c.scale() * random.log_uniform(1e-3, 1.0))};
+        Load load = load_of(point, step);
+        load.dfgrd1 = stretch_of(*load.dfgrd1);
+        VumatBlock block(point);
+        block.points.push_back(block_point(point, load));
+        if (block.run().stops > 0) continue;
+        const VumatPoint& p = block.points[0];
+        const double e33 = p.thickness_strain_increment;
+        Matrix3d f = *load.dfgrd1;
+        // The total laws are in V - I.
+        f(2, 2) = c.is_total_law() ? 1.0 + e33 : std::exp(e33);
+        const Answer free = solid->point().evaluate(
+            {.dstran = {load.dstran[0], load.dstran[1], e33, load.dstran[2], 0.0, 0.0}, .dfgrd1 = f});
+        if (!free.done()) continue;
+        const double size = std::max(largest(p.stress), c.stiffness * largest(load.dstran));
+        EXPECT_NEAR(free.stress[2], 0.0, 1e-9 * size);
+        for (const auto& [plane, whole] : {std::pair{0, 0}, {1, 1}, {2, 3}})
+            EXPECT_NEAR(p.stress[static_cast<std::size_t>(plane)], free.stress[static_cast<std::size_t>(whole)],
+                        1e-9 * size);
+    }
+}
+
 // The first increment of a later step is none.
 TEST_P(Vumat, StepTimeZeroAloneIsNoProbe) {
     const Case& c = GetParam();
@@ -260,17 +295,16 @@ VumatPoint in_single_precision(VumatPoint p) {
     return p;
 }
 
+VumatFunctionOf<float> single_precision_vumat() {
+    static void* const library = dlopen(LODE_SINGLE_PRECISION_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    return library == nullptr ? nullptr : reinterpret_cast<VumatFunctionOf<float>>(dlsym(library, "vumat_"));
+}
+
 // Single precision is double precision between rounded arrays: with inputs that floats can hold, the answer is the
 // rounded one of the double library, exactly.
 TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
     const Case& c = GetParam();
-    struct Library {
-        void* handle = dlopen(LODE_SINGLE_PRECISION_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-        VumatFunctionOf<float> vumat =
-            handle != nullptr ? reinterpret_cast<VumatFunctionOf<float>>(dlsym(handle, "vumat_")) : nullptr;
-    };
-    static const Library library;
-    ASSERT_NE(library.vumat, nullptr) << dlerror();
+    ASSERT_NE(single_precision_vumat(), nullptr) << dlerror();
     const std::vector<Situation> all = situations(c, 144);
     Numbers props = c.props();
     round_all(props);
@@ -281,7 +315,7 @@ TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
             single.points.push_back(in_single_precision(block_point(all[i].point, all[i].load)));
         }
         VumatBlock twice = single;
-        const HostMessages a = single.run_with(library.vumat), b = twice.run();
+        const HostMessages a = single.run_with(single_precision_vumat()), b = twice.run();
         ASSERT_EQ(a.stops, b.stops);
         if (b.stops > 0) continue;  // rounding may push a point where the model cannot go; both say so
         for (std::size_t i = 0; i < size; ++i) {
@@ -296,6 +330,43 @@ TEST_P(Vumat, SinglePrecisionIsTheRoundedResult) {
             EXPECT_EQ(actual.thickness_strain_increment, as_float(expected.thickness_strain_increment));
         }
     }
+}
+
+// Blocks of all materials in both precisions by several threads at once: bit for bit the serial results.
+TEST(VumatThreads, GiveTheSerialResults) {
+    ASSERT_NE(single_precision_vumat(), nullptr) << dlerror();
+    std::vector<VumatBlock> blocks, serial, serial_single;
+    for (const Case& c : all_cases()) blocks.push_back(block_of(c, situations(c, 70), 70));
+    const auto in_single = [](VumatBlock block) {
+        for (VumatPoint& p : block.points) p = in_single_precision(p);
+        block.run_with(single_precision_vumat());
+        return block;
+    };
+    const auto in_double = [](VumatBlock block) {
+        block.run();
+        return block;
+    };
+    for (const VumatBlock& block : blocks) {
+        serial.push_back(in_double(block));
+        serial_single.push_back(in_single(block));
+    }
+    const auto same = [](const VumatBlock& a, const VumatBlock& b) {
+        return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), identical_points);
+    };
+    std::array<std::vector<std::size_t>, 4> different;
+    {
+        std::vector<std::jthread> running;
+        for (std::size_t t = 0; t < different.size(); ++t)
+            running.emplace_back([&, t] {
+                for (std::size_t i = 0; i < blocks.size(); ++i) {
+                    const std::size_t k = t % 2 == 0 ? i : blocks.size() - 1 - i;
+                    if (!same(in_double(blocks[k]), serial[k]) || !same(in_single(blocks[k]), serial_single[k]))
+                        different[t].push_back(k);
+                }
+            });
+    }
+    for (const std::vector<std::size_t>& some : different)
+        for (const std::size_t k : some) ADD_FAILURE() << all_cases()[k].name();
 }
 
 LODE_FOR_ALL_CASES(Vumat);

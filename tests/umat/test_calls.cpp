@@ -71,6 +71,15 @@ TEST(MaterialName, RefusalNamesTheMaterialAndTheModels) {
     EXPECT_NE(answer.first_error().find("ISO_ELASTIC"), std::string::npos) << answer.first_error();
 }
 
+// The hosts' message routines read %I, %R and %S as formats and take 500 characters.
+TEST(Messages, FitTheRoutinesOfTheHosts) {
+    UmatPoint known("ISO_ELASTIC-50%I", uniaxial, {-1.0, 0.3});
+    const std::string refusal = known.nstatv(4).evaluate({.dstran = {1e-3}}).first_error();
+    EXPECT_NE(refusal.find("ISO_ELASTIC-50/I"), std::string::npos) << refusal;
+    UmatPoint unknown("STEEL", uniaxial, steel);
+    EXPECT_EQ(unknown.nstatv(4).evaluate({.dstran = {1e-3}}).first_error().size(), 500u);
+}
+
 TEST(EntryPoints, UpperCaseNamesAnswerTheSame) {
     const UmatPoint point("ISO_ELASTIC", solid, steel);
     UmatPoint upper = point;

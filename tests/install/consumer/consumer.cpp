@@ -1,10 +1,32 @@
-// A project of somebody else: the catalogue through the C API, and a model used directly from its header.
+// A project of somebody else: the catalogue through the C API, a model used directly from its header, and the same
+// model through the entry point.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
+#include "lode/entry_points.h"
 #include "lode/lode.h"
 #include "lode/plasticity/iso_plastic.hpp"
+
+namespace {
+
+// The stress of a bar of the material after the first increment.
+double stress_by_umat(const double* props, int nprops, double strain) {
+    double stress[1] = {}, statev[4] = {}, ddsdde[1], sse = 0, spd = 0, scd = 0, rpl = 0, ddsddt[1], drplde[1],
+           drpldt = 0;
+    double pnewdt = 1.0;
+    const double zeros[9] = {}, one = 1.0, identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const int ndi = 1, nshr = 0, ntens = 1, nstatv = 4, number = 1;
+    char cmname[LODE_CMNAME_LENGTH];
+    std::memset(cmname, ' ', sizeof cmname);
+    std::memcpy(cmname, "ISO_PLASTIC-MINE", 16);
+    umat_(stress, statev, ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, zeros, &strain, zeros, &one, zeros,
+          zeros, zeros, zeros, cmname, &ndi, &nshr, &ntens, &nstatv, props, &nprops, zeros, identity, &pnewdt, &one,
+          identity, identity, &number, &number, &number, &number, &number, &number, sizeof cmname);
+    return stress[0];
+}
+
+}  // namespace
 
 int main() {
     bool listed = false;
@@ -25,6 +47,8 @@ int main() {
     lode::Tangent<kind> tangent{stiffness, thermal_stress, heat};
     steel.update(increment, point, tangent);
 
-    std::printf("%d models; stress %.9f\n", lode_model_count(), point.stress[0]);
-    return listed && std::fabs(point.stress[0] - 415.841584158) < 1e-8 ? 0 : 1;
+    const double by_umat = stress_by_umat(constants, 5, 0.01);
+    std::printf("%d models; stress %.9f, through umat_ %.9f\n", lode_model_count(), point.stress[0], by_umat);
+    return listed && std::fabs(point.stress[0] - 415.841584158) < 1e-8 && std::fabs(by_umat - 415.841584158) < 1e-8 ? 0
+                                                                                                                    : 1;
 }
