@@ -132,7 +132,7 @@ TEST_P(Vumat, AgreesWithUmat) {
 // A point's answer does not depend on how many others there are or where it stands among them: bit for bit.
 TEST_P(Vumat, AnswersDoNotDependOnTheBlock) {
     const Case& c = GetParam();
-    for (const std::uint64_t seed : {1, 1001, 2001}) {
+    for (const std::uint64_t seed : {1u, 1001u, 2001u}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const std::vector<Situation> all = situations(c, 144, seed);
         VumatBlock reference = block_of(c, all, all.size());
